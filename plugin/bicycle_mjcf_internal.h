@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of bicycle_mjcf share; not for users.
+#ifndef BICYCLE_MJCF_INTERNAL_H
+#define BICYCLE_MJCF_INTERNAL_H
+
+#include "bicycle_mjcf.h"
+
+#include <stdio.h>
+
+enum { MJCF_BODIES = 4 }; // numbered as bike_assembly
+
+// One rigid body of the model: the parts of an assembly lumped. Axes (forward, left, up).
+typedef struct mjcf_body {
+  const char *name;    //
+  double origin[3];    // m       of the body frame, upright, from the rear contact
+  double mass;         // kg
+  double centre[3];    // m       of mass, from the origin
+  double inertia[6];   // kg m^2  Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass
+  double principal[3]; // kg m^2  moments as MJCF takes them
+  double quat[4];      //         the principal axes
+  bool placeholder;    //         `principal` is not the tensor: MJCF refuses that
+} mjcf_body;
+
+// All that is written, computed once.
+typedef struct mjcf_plan {
+  const bike_bicycle *bicycle;
+  const mjcf_options *options;
+  bike_upright upright;
+  double axis[3];      // unit, upwards along the steering axis (e_S)
+  double across[3];    // unit, forwards and square to it in the plane of symmetry (e_p)
+  mjcf_body body[MJCF_BODIES];
+} mjcf_plan;
+
+// Checks the bicycle and the options and fills the plan, which keeps both pointers.
+bool mjcf_plan_init(mjcf_plan *plan, const bike_bicycle *bicycle, const mjcf_options *options,
+                    mjcf_error *error);
+
+// Principal moments and axes of a symmetric tensor, to rounding (MuJoCo's own stop at 1e-12).
+void mjcf_principal(double moments[3], double quat[4], const double inertia[6]);
+
+// Raises the moments to the nearest that MJCF takes; false if they already were.
+bool mjcf_make_legal(double moments[3]);
+
+// ` name="a b c"` with 17 digits; with the 4 digits that a picture needs.
+void mjcf_put(FILE *out, const char *name, const double *values, int count);
+void mjcf_put_short(FILE *out, const char *name, const double *values, int count);
+
+// What is only looked at: texture and colours, lights, and the geoms of one body, indented.
+void mjcf_put_assets(FILE *out);
+void mjcf_put_scenery(FILE *out);
+void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body);
+
+#endif

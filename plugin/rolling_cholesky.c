@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small symmetric semidefinite systems: constraints may repeat each other.
+#include "rolling_internal.h"
+
+#include <math.h>
+
+// A row counts as dependent on those before it when less than this part of its diagonal is left: an
+// angle of 1e-5 between constraints, far from any real mechanism's, and far above the rounding of
+// M^-1 (1e-13 for a mass matrix of condition 1e3).
+static const mjtNum dependent = 1e-10;
+
+// Makes of a symmetric matrix its lower triangular factor, in place, with a column only for rows
+// that are independent of those before them. Row i of A is not needed once row i of L is there, and
+// pivot[k] >= k: no entry is overwritten before it is used.
+static int factorise(mjtNum *A, int *pivot, int n) {
+  int rank = 0;
+  for (int i = 0; i < n; i++) {
+    mjtNum *row = A + i * n, diagonal = row[i], left = diagonal;
+    for (int k = 0; k < rank; k++) {
+      const mjtNum *earlier = A + pivot[k] * n;
+      row[k] = (row[pivot[k]] - mju_dot(row, earlier, k)) / earlier[k];
+      left -= row[k] * row[k];
+    }
+    mju_zero(row + rank, n - rank);
+    // An independent row opens a column; a NaN counts as independent, to be seen in the result.
+    if (!(left <= dependent * diagonal)) {
+      row[rank] = sqrt(left);
+      pivot[rank++] = i;
+    }
+  }
+  return rank;
+}
+
+// x = (L L^T)^-1 x for a full n x n lower triangle.
+static void substitute(mjtNum *x, const mjtNum *L, int n) {
+  for (int i = 0; i < n; i++) x[i] = (x[i] - mju_dot(L + i * n, x, i)) / L[i * n + i];
+  for (int i = n - 1; i >= 0; i--) {
+    x[i] /= L[i * n + i];
+    for (int k = 0; k < i; k++) x[k] -= L[i * n + k] * x[i];
+  }
+}
+
+// y = L^T x, with rank columns.
+static void multiply_transposed(mjtNum *y, const roll_factor *f, const mjtNum *x) {
+  mju_zero(y, f->rank);
+  for (int i = 0; i < f->n; i++) mju_addToScl(y, f->L + i * f->n, x[i], f->rank);
+}
+
+// G = L^T L, the full matrix, rank x rank.
+static void gram(mjtNum *G, const roll_factor *f) {
+  int r = f->rank;
+  mju_zero(G, r * r);
+  for (int i = 0; i < f->n; i++)
+    for (int k = 0; k < r; k++) mju_addToScl(G + k * r, f->L + i * f->n, f->L[i * f->n + k], r);
+}
+
+void roll_factorise(roll_factor *f) {
+  f->rank = factorise(f->L, f->pivot, f->n);
+  if (f->rank == f->n) return;
+  gram(f->G, f);
+  factorise(f->G, f->pivot, f->rank); // columns are independent: full rank again
+}
+
+void roll_solve(mjtNum *x, const roll_factor *f, const mjtNum *b) {
+  if (f->rank == f->n) {
+    if (x != b) mju_copy(x, b, f->n);
+    substitute(x, f->L, f->n);
+    return;
+  }
+  // A^+ b = L G^-1 G^-1 L^T b with G = L^T L
+  mjtNum *y = f->work;
+  multiply_transposed(y, f, b);
+  substitute(y, f->G, f->rank);
+  substitute(y, f->G, f->rank);
+  for (int i = 0; i < f->n; i++) x[i] = mju_dot(f->L + i * f->n, y, f->rank);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texts of errors, and warnings that are given once.
+#include "rolling_internal.h"
+
+#include <stdatomic.h>
+
+const char *roll_error_string(roll_error error) {
+  static const char *const text[] = {
+#define ROLL_ERROR_TEXT(code, text) text,
+      ROLL_ERRORS(ROLL_ERROR_TEXT)
+#undef ROLL_ERROR_TEXT
+  };
+  int known = (int)error >= 0 && (size_t)error < sizeof text / sizeof *text;
+  return known ? text[error] : "unknown error of the rolling discs";
+}
+
+void roll_warn(roll_message message, const char *text, const mjModel *m, const mjData *d) {
+  static atomic_bool said[ROLL_MESSAGES]; // changes what is said, never what is computed
+  // The compiler takes one step of its own, whose last stage ends at one timestep: quiet until
+  // then.
+  if (!(d->time > 1.5 * m->opt.timestep)) return;
+  if (!atomic_exchange(&said[message], 1)) mju_warning(text);
+}

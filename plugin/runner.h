@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Headless rides of a MuJoCo bicycle, measured in the terms of the analytic model.
+//
+// The bicycle is one made by bicycle_mjcf, or any model with the same names of bodies and joints.
+// The start is made consistent with the six rolling constraints by MuJoCo's own kinematics: no
+// analytic equation takes part in a ride, so that a comparison compares two independent engines.
+// One runner serves one thread at a time; runners in different threads are independent, but create
+// them one at a time (the compiler of MuJoCo is not reentrant, mjcb_control is process-global).
+#ifndef BICYCLE_RUNNER_H
+#define BICYCLE_RUNNER_H
+
+#include "bicycle_mjcf.h"
+
+#include <bicycle/ride.h>
+
+// 0 or why a run failed, with its kind; details stand in mjcf_error.
+#define RUNNER_STATUSES(X)                                                                         \
+  X(RUNNER_OK, "no error")                                                                         \
+  X(RUNNER_ARGUMENT, "an argument is outside its range")                                           \
+  X(RUNNER_MODEL, "the model is not a bicycle the runner knows")                                   \
+  X(RUNNER_UNSUPPORTED, "the rider of the MuJoCo bicycle cannot move")                             \
+  X(RUNNER_START, "no start position satisfies the rolling constraints")                           \
+  X(RUNNER_MEMORY, "out of memory")                                                                \
+  X(RUNNER_INTERRUPTED, "interrupted by the caller")                                               \
+  X(RUNNER_INVALID_ERROR, "MuJoCo raised an error")                                                \
+  X(RUNNER_INVALID_WARNING, "MuJoCo raised a warning")                                             \
+  X(RUNNER_INVALID_TIME, "MuJoCo's time did not grow by one timestep: the state was reset")        \
+  X(RUNNER_INVALID_CALLBACK, "mjcb_control is no longer that of exact rolling")                    \
+  X(RUNNER_INVALID_NOT_FINITE, "the state is not finite")
+
+typedef enum runner_status {
+#define RUNNER_STATUS_CODE(code, text) code,
+  RUNNER_STATUSES(RUNNER_STATUS_CODE)
+#undef RUNNER_STATUS_CODE
+} runner_status;
+
+// The text of a status; never NULL.
+const char *runner_status_string(runner_status status);
+
+// The exit code of design.md: 0, 2 (usage or input) or 3 (the run is invalid).
+int runner_exit_code(runner_status status);
+
+typedef struct runner runner;
+
+// A runner for a bicycle, or for a model file (.xml, .mjb) of one. NULL with a text in `error`,
+// and why in `status` (either may not be NULL). Free with runner_free; NULL is allowed there.
+runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
+                      runner_status *status, mjcf_error *error);
+runner *runner_load(const char *path, runner_status *status, mjcf_error *error);
+void runner_free(runner *r);
+
+// The compiled model, to be read (Lp tests) or, between rides, changed in integrator, timestep.
+mjModel *runner_model(runner *r);
+
+// The state from which mj_step continues, for tests and tools; valid until runner_free.
+mjData *runner_data(runner *r);
+
+// What MuJoCo says of one instant. Index 0: rear, 1: front wheel. Forces of the ground on the
+// wheel along (e_R of the rear wheel, horizontal left of it, up), N.
+typedef struct runner_instant {
+  double x, y;                 // m      rear contact point
+  double yaw, lean, pitch;     // rad    yaw is continuous during a ride
+  double steer;                // rad
+  double yaw_rate, lean_rate, pitch_rate, steer_rate; // rad/s
+  double speed;                // m/s    of the rear contact point along its track
+  double wheel_angle[2];       // rad    hinges, rolling forward positive
+  double wheel_rate[2];        // rad/s
+  double yaw_acceleration, lean_acceleration, pitch_acceleration, steer_acceleration; // rad/s^2
+  double speed_rate;           // m/s^2
+  double wheel_acceleration[2]; // rad/s^2
+  double kinetic, potential;   // J      zero potential with every mass at the ground
+  double power;                // W      of steer torque, roll torque and damper
+  double force[2][3];          // N
+  double slip[2];              // m/s    horizontal speed of the wheel's material at its contact
+  double height[2];            // m      of the lowest point of the disc above the ground
+  double height_rate[2];       // m/s
+} runner_instant;
+
+// The instant at a state: x = y = yaw = wheel angles = 0. `input` may be NULL: hands off. Does not
+// touch a ride's state. Errors: ARGUMENT, UNSUPPORTED, START, INVALID_*.
+runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *state,
+                              const bike_input *input, mjcf_error *error);
+
+// Places the ride's state (time 0) at a bike_state, or at the model's keyframe `test`
+// (RUNNER_MODEL if there is none). The keyframe's state is taken as it is if its constraint
+// residuals are below RUNNER_START_TOLERANCE, and refused otherwise.
+runner_status runner_start(runner *r, const bike_state *state, mjcf_error *error);
+runner_status runner_start_at_keyframe(runner *r, mjcf_error *error);
+
+// Residual allowed at the start, m and m/s: some hundred roundings of lengths of 1 m and speeds of
+// 10 m/s, and a thousandth of what a ride of 10 s at 1 ms accumulates.
+#define RUNNER_START_TOLERANCE 1e-13
+
+// The instant at which the ride is. Errors: INVALID_*.
+runner_status runner_measure(runner_instant *out, runner *r, mjcf_error *error);
+
+// A row of a ride and what the comparator judges beside it.
+typedef struct runner_sample {
+  bike_sample row;          // the columns of `bicycle ride`
+  bike_sample_more more;    // work and forces
+  double slip[2];           // as in runner_instant
+  double height[2];         //
+  double height_rate[2];    //
+} runner_sample;
+
+// A nonzero return stops the ride with RUNNER_INTERRUPTED.
+typedef int runner_sample_function(const runner_sample *sample, void *user);
+
+typedef struct runner_ride_def {
+  double duration;                   // s    > 0; rows at k * sample, k = 0 .. duration/sample
+  double sample;                     // s    a multiple of the timestep
+  double lean_limit;                 // rad  0 < limit < pi/2
+  bool stop_at_lift;                 //      a lift event ends the ride
+  bike_input_function *input;        //      NULL: hands off; evaluated at every stage of a step
+  runner_sample_function *on_sample; //      required
+  void *user;                        //      for both functions
+} runner_ride_def;
+
+// Defaults as in bike_default_ride_def, lean limit 85 deg: roll, pitch, yaw are singular at 90.
+runner_ride_def runner_default_ride_def(void);
+
+typedef struct runner_ride_result {
+  double end_time;                    // s    reached: the duration, or the event that ended it
+  bool complete;                      //      the whole duration was ridden
+  int event_count;                    //      further events than BIKE_MAX_EVENTS are not kept
+  bike_event events[BIKE_MAX_EVENTS]; //      to linear interpolation within a step
+  long steps;                         //
+  double wall_time;                   // s    spent in mj_step alone
+} runner_ride_result;
+
+// Rides from the state where runner_start left it, and samples. After every step: no warning, time
+// grew by one timestep, mjcb_control still ours, state finite; otherwise INVALID_*, with the time
+// in `error`. RUNNER_OK also when an event ended the ride early.
+runner_status runner_ride(runner_ride_result *out, runner *r, const runner_ride_def *def,
+                          mjcf_error *error);
+
+#endif

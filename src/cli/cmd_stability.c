@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// bicycle stability: eigenvalues over speeds, critical speeds, stable ranges.
+#include "commands.h"
+#include "terminal/command.h"
+#include "terminal/data.h"
+#include "terminal/json.h"
+#include "terminal/number.h"
+#include "terminal/table.h"
+
+#include <bicycle/error.h>
+#include <bicycle/stability.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const char example[] = "Example: bicycle stability benchmark\n"
+                              "         bicycle stability roadster --speeds 0:10:101 --json\n";
+
+static const char documentation[] =
+    "Stability of riding straight and upright, rigid rider, hands off: the eigenvalues in 1/s at "
+    "each speed, falling, the weave and capsize speeds, and the ranges of speed in which "
+    "every disturbance dies out.";
+
+typedef struct arguments {
+  const char *file;
+  term_range speeds;
+  double search[2]; // m/s
+  term_show show;
+} arguments;
+
+enum { KEY_SPEEDS = TERM_KEY_FIRST, KEY_SEARCH };
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  arguments *args = state->input;
+  switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &args->show;
+    return 0;
+  case KEY_SPEEDS:
+    if (!term_parse_range(&args->speeds, text))
+      term_usage("--speeds: '%s' is not A:B:N, N points from A to B > A", text);
+    return 0;
+  case KEY_SEARCH:
+    if (!term_parse_interval(args->search, text) || args->search[0] < 0)
+      term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
+    return 0;
+  case ARGP_KEY_ARG:
+    term_take_argument(&args->file, text, "FILE");
+    return 0;
+  case ARGP_KEY_END:
+    if (!args->file) term_usage("the bicycle's FILE is missing");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static const struct argp_option options[] = {
+    {"speeds", KEY_SPEEDS, "A:B:N", 0, "N speeds from A to B, both included, m/s (0:10:11)", 1},
+    {"search", KEY_SEARCH, "LO:HI", 0, "Where to look for critical speeds, m/s (0:20)", 1},
+    {0},
+};
+
+// The default search ends well above the speeds at which people ride a bicycle.
+static const arguments defaults = {.speeds = {0, 10, 11}, .search = {0, 20}};
+
+static double first_or_nan(const double *speeds, int count) {
+  return count > 0 ? speeds[0] : NAN;
+}
+
+static json_t *eigenvalues_json(const term_range *speeds, const bike_eigenvalues *values) {
+  json_t *array = json_array();
+  for (long i = 0; i < speeds->count; i++) {
+    double pairs[8];
+    for (int k = 0; k < 4; k++) {
+      pairs[2 * k] = values[i].re[k];
+      pairs[2 * k + 1] = values[i].im[k];
+    }
+    json_array_append_new(array, json_pack("{s:o, s:o}", "speed",
+                                           term_json_number(term_range_point(speeds, i)), "values",
+                                           term_json_matrix(pairs, 4, 2)));
+  }
+  return array;
+}
+
+static bool print_json(const bike_bicycle *bicycle, const arguments *args,
+                       const bike_eigenvalues *values, const bike_critical_speeds *critical) {
+  json_t *document = json_pack(
+      "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name, "convention",
+      term_convention_name(args->show.convention), "eigenvalues",
+      eigenvalues_json(&args->speeds, values), "weave_speed",
+      term_json_number(first_or_nan(critical->weave, critical->weave_count)), "capsize_speed",
+      term_json_number(first_or_nan(critical->capsize, critical->capsize_count)), "weave_speeds",
+      term_json_numbers(critical->weave, (size_t)critical->weave_count), "capsize_speeds",
+      term_json_numbers(critical->capsize, (size_t)critical->capsize_count), "stable_ranges",
+      term_json_matrix(critical->ranges[0], (size_t)critical->range_count, 2), "search",
+      term_json_numbers(args->search, 2));
+  return term_json_write(document, stdout);
+}
+
+static bool is_stable(const bike_eigenvalues *values) {
+  return values->re[0] < 0; // the largest real part
+}
+
+static void format_eigenvalue(char out[64], double re, double im) {
+  if (im == 0)
+    snprintf(out, 64, "%.6g", re);
+  else
+    snprintf(out, 64, "%.6g%+.6gi", re, im);
+}
+
+static bool print_eigenvalues(const term_range *speeds, const bike_eigenvalues *values) {
+  static const term_column columns[] = {{"speed", TERM_RIGHT},       {"eigenvalues", TERM_RIGHT},
+                                        {"", TERM_RIGHT},            {"", TERM_RIGHT},
+                                        {"", TERM_RIGHT},            {"stable", TERM_LEFT}};
+  term_table *table = term_table_create(columns, 6);
+  for (long i = 0; i < speeds->count; i++) {
+    char speed[32], text[4][64];
+    snprintf(speed, sizeof speed, "%g", term_range_point(speeds, i));
+    for (int k = 0; k < 4; k++) format_eigenvalue(text[k], values[i].re[k], values[i].im[k]);
+    bool stable = is_stable(&values[i]);
+    term_table_add(
+        table, stable ? TERM_GOOD : TERM_PLAIN,
+        (const char *const[]){speed, text[0], text[1], text[2], text[3], stable ? "yes" : "no"});
+  }
+  bool printed = term_table_print(table, stdout);
+  term_table_free(table);
+  return printed;
+}
+
+static void print_speeds(const char *name, const double *speeds, int count) {
+  printf("%-13s ", name);
+  for (int i = 0; i < count; i++) printf("%s%.12f", i ? ", " : "", speeds[i]);
+  puts(count ? " m/s" : "none");
+}
+
+static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
+                         const bike_eigenvalues *values, const bike_critical_speeds *critical) {
+  printf("%s, riding straight and upright, convention %s\n\n", bicycle->name,
+         term_convention_name(args->show.convention));
+  bool printed = print_eigenvalues(&args->speeds, values);
+  printf("\nbetween %g and %g m/s:\n", args->search[0], args->search[1]);
+  print_speeds("weave speed", critical->weave, critical->weave_count);
+  print_speeds("capsize speed", critical->capsize, critical->capsize_count);
+  printf("%-13s ", "stable");
+  for (int i = 0; i < critical->range_count; i++)
+    printf("%s%.12f to %.12f", i ? ", " : "", critical->ranges[i][0], critical->ranges[i][1]);
+  puts(critical->range_count ? " m/s" : "nowhere");
+  return printed;
+}
+
+static int find_eigenvalues(bike_eigenvalues *out, const bike_model *model,
+                            const term_range *speeds) {
+  int error = BIKE_OK;
+  for (long i = 0; i < speeds->count && error == BIKE_OK; i++)
+    error = bike_upright_eigenvalues(&out[i], model, term_range_point(speeds, i));
+  return error;
+}
+
+int cmd_stability(int argc, char **argv) {
+  const struct argp_child children[] = {{&term_show_argp, 0, NULL, 0}, {0}};
+  const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
+  arguments args = defaults;
+  term_parse(&argp, example, argc, argv, &args);
+
+  bike_bicycle bicycle;
+  bike_model model;
+  term_exit code = term_load_bicycle(&bicycle, &model, args.file);
+  if (code != TERM_DONE) return code;
+
+  bike_critical_speeds critical = {0};
+  bike_eigenvalues *values = calloc((size_t)args.speeds.count, sizeof *values);
+  int error = values ? find_eigenvalues(values, &model, &args.speeds) : BIKE_ERROR_MEMORY;
+  if (error == BIKE_OK)
+    error = bike_upright_critical_speeds(&critical, &model, args.search[0], args.search[1]);
+  if (error == BIKE_OK) {
+    bool printed = args.show.json ? print_json(&bicycle, &args, values, &critical)
+                                  : print_tables(&bicycle, &args, values, &critical);
+    error = printed ? BIKE_OK : BIKE_ERROR_MEMORY;
+  }
+  free(values);
+  return error == BIKE_OK ? TERM_DONE : term_fail_bike(error, args.file);
+}

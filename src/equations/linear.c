@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact first derivatives of the kernel by complex step: f'(x) = Im f(x + ih)/h, without
+// cancellation, so h can be as small as to leave the real parts untouched.
+#include <bicycle/error.h>
+#include <bicycle/linear.h>
+#include <math.h>
+#include <string.h>
+
+#include "equations/number_complex.h"
+
+static const double STEP = 1e-100;
+
+enum { PHI, KAPPA, PHI_RATE, KAPPA_RATE, SPEED, STEER_TORQUE, ROLL_TORQUE, RIDER, VARIABLES };
+
+typedef struct perturbed {
+  start from;
+  real x[VARIABLES];
+  double w, w1;
+} perturbed;
+
+static perturbed perturbed_state(const bike_state *s, const bike_input *in, double beta_r) {
+  return (perturbed){.from = {sin(beta_r), cos(beta_r)},
+                     .x = {s->steer, s->lean, s->steer_rate, s->lean_rate, s->speed,
+                           in->steer_torque, in->roll_torque, in->rider_acceleration},
+                     .w = in->rider_offset,
+                     .w1 = in->rider_velocity};
+}
+
+// The instant with variable `which` moved by i STEP; which < 0: none.
+static load solve_perturbed(instant *now, const kernel_model *model, perturbed at, int which) {
+  if (which >= 0) at.x[which] += I * STEP;
+  const real *x = at.x;
+  load in = {x[STEER_TORQUE], x[ROLL_TORQUE], at.w, at.w1, x[RIDER]};
+  form u = {x[PHI_RATE], x[KAPPA_RATE], x[SPEED]};
+  solve_instant(now, model, at.from, x[PHI], x[KAPPA], u, &in);
+  return in;
+}
+
+static double derivative(real value) {
+  return cimag(value) / STEP;
+}
+
+// Rows (phi'', kappa''), columns of all variables, and the gradient of the energy.
+static void gradients(double J[2][VARIABLES], double E[VARIABLES], const bike_model *model,
+                      const perturbed *at) {
+  kernel_model m = complex_model(model);
+  for (int j = 0; j < VARIABLES; j++) {
+    instant now;
+    load in = solve_perturbed(&now, &m, *at, j);
+    J[0][j] = derivative(now.acceleration.phi);
+    J[1][j] = derivative(now.acceleration.kap);
+    energy e = energy_of(&now, &m, &in);
+    E[j] = derivative(e.kinetic + e.potential);
+  }
+}
+
+int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *state,
+                   const bike_input *input) {
+  const bike_input hands_off = {0};
+  if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
+  if (!input) input = &hands_off;
+  bike_snapshot now; // judges the state, and finds beta_r
+  int code = bike_evaluate(&now, model, state, input);
+  if (code) return code;
+
+  perturbed at = perturbed_state(state, input, now.beta_r);
+  double J[2][VARIABLES], E[VARIABLES];
+  gradients(J, E, model, &at);
+  bike_linear linear = {0};
+  linear.A[2] = linear.A[7] = 1; // phi' = phi', kappa' = kappa'
+  for (int i = 0; i < 2; i++) {
+    // dv = -E_j/E_v dx_j at constant energy; by symmetry straight riding does not feel dv, and
+    // there E_v may be zero
+    double slaved = J[i][SPEED];
+    if (slaved != 0 && E[SPEED] == 0) return BIKE_ERROR_SINGULAR;
+    if (slaved != 0) slaved /= E[SPEED];
+    for (int j = 0; j < 4; j++) linear.A[4 * (i + 2) + j] = J[i][j] - slaved * E[j];
+    for (int j = 0; j < 3; j++) linear.B[3 * (i + 2) + j] = J[i][STEER_TORQUE + j];
+  }
+  *out = linear;
+  return BIKE_OK;
+}
+
+// Lateral places and products of inertia are nothing but rounding.
+static bool mirror_symmetric(const bike_model *m) {
+  const double rounding = 1e-14; // some tens of roundings of the sums over parts
+  const bike_body *body[] = {&m->rear, &m->front};
+  for (int i = 0; i < 2; i++) {
+    const double *c = body[i]->centre, *J = body[i]->inertia;
+    if (fabs(c[0]) > rounding * (fabs(c[1]) + fabs(c[2]))) return false;
+    if (fabs(J[3]) + fabs(J[4]) > rounding * (J[0] + J[1] + J[2])) return false;
+  }
+  return true;
+}
+
+// -d f/d x of the generalised forces (lean, steer) for x at column `which`, upright at a speed.
+static void stiffness(double out[2], const kernel_model *m, double tilt, double speed, int which) {
+  bike_state straight = {.speed = speed};
+  bike_input hands_off = {0};
+  perturbed at = perturbed_state(&straight, &hands_off, tilt);
+  instant now;
+  solve_perturbed(&now, m, at, which);
+  out[0] = -derivative(now.k.f[1]);
+  out[1] = -derivative(now.k.f[0]);
+}
+
+// Both columns of a matrix over q = (lean, steer).
+static void matrix(double out[4], const kernel_model *m, double tilt, double speed,
+                   const int which[2]) {
+  for (int j = 0; j < 2; j++) {
+    double column_j[2];
+    stiffness(column_j, m, tilt, speed, which[j]);
+    out[j] = column_j[0];
+    out[2 + j] = column_j[1];
+  }
+}
+
+int bike_linearize_upright(bike_upright_matrices *out, const bike_model *model) {
+  if (!out || !model) return BIKE_ERROR_ARGUMENT;
+  if (!mirror_symmetric(model)) return BIKE_ERROR_NOT_STATIONARY;
+  bike_state standing = {0};
+  double mass[9];
+  int code = bike_mass_matrix(mass, model, &standing, 0);
+  if (code) return code;
+
+  const int angles[2] = {KAPPA, PHI}, speeds[2] = {KAPPA_RATE, PHI_RATE};
+  bike_upright_matrices m = {.M = {mass[0], mass[1], mass[3], mass[4]}};
+  // K0 without speed at unit gravity, C1 and K2 at unit speed without gravity: no differences
+  kernel_model heavy = complex_model(model), weightless = heavy;
+  heavy.steer_damping = weightless.steer_damping = 0;
+  heavy.gravity = 1;
+  weightless.gravity = 0;
+  matrix(m.K0, &heavy, model->tilt, 0, angles);
+  matrix(m.K2, &weightless, model->tilt, 1, angles);
+  matrix(m.C1, &weightless, model->tilt, 1, speeds);
+  *out = m;
+  return BIKE_OK;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Equation (4) where the kernel's fixed Newton steps from upright do not reach its root.
+#ifndef BICYCLE_EQUATIONS_REAR_ANGLE_H
+#define BICYCLE_EQUATIONS_REAR_ANGLE_H
+
+#include "equations/number_double.h"
+
+// Whether a position solves (4) to rounding, on the branch that upright riding belongs to.
+static inline bool rear_angle_found(const position *g) {
+  // eight times the rounding of the sum of (4)'s terms: the converged residual was never seen
+  // above two, and one Newton step before convergence it is above a hundred
+  const double tolerance = 8 * 2.220446049250313e-16;
+  return fabs(g->residual) <= tolerance * g->scale && g->Q > 0 && g->c_br > 0 && g->c_kap > 0 &&
+         g->T_r * g->c_phit - g->T_f > 0;
+}
+
+// Follows the root from upright to (phi, kappa) along a straight line. BIKE_ERROR_GEOMETRY where
+// it ends: no root, or a denominator of the rates vanishes.
+int rear_angle_continued(start *out, const bike_model *model, double phi, double kappa);
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernel in double, with its failures judged: what the library's users call.
+#include <bicycle/error.h>
+#include <bicycle/state.h>
+#include <float.h>
+
+#include "equations/number_double.h"
+#include "equations/rear_angle.h"
+
+static bool finite_state(const bike_state *s) {
+  return isfinite(s->lean + s->steer + s->lean_rate + s->steer_rate + s->speed);
+}
+
+static bool finite_input(const bike_input *in) {
+  return isfinite(in->steer_torque + in->roll_torque + in->rider_offset + in->rider_velocity +
+                  in->rider_acceleration);
+}
+
+static bool sways(const bike_input *in) {
+  return in->rider_offset != 0 || in->rider_velocity != 0 || in->rider_acceleration != 0;
+}
+
+// The pivots are those of a positive definite matrix; relative to the diagonal entry a pivot below
+// this is lost in the rounding of the entries (some tens of operations each).
+static const double SMALLEST_PIVOT = 64 * DBL_EPSILON;
+
+static bool regular(const kane *k) {
+  return k->pivot[0] > 0 && k->pivot[1] > SMALLEST_PIVOT * k->M[1] &&
+         k->pivot[2] > SMALLEST_PIVOT * k->M[0];
+}
+
+static form speeds_of(const bike_state *s) {
+  return (form){s->steer_rate, s->lean_rate, s->speed};
+}
+
+static load load_of(const bike_input *in) {
+  return (load){in->steer_torque, in->roll_torque, in->rider_offset, in->rider_velocity,
+                in->rider_acceleration};
+}
+
+// Solves the instant from the upright start; where five Newton steps were not enough, from a
+// start found by continuation.
+static int solve_state(instant *now, const bike_model *model, const bike_state *state,
+                       const bike_input *input) {
+  if (!finite_state(state) || !finite_input(input)) return BIKE_ERROR_NOT_FINITE;
+  if (model->rider_mass == 0 && sways(input)) return BIKE_ERROR_NO_RIDER;
+  load in = load_of(input);
+  start from = {sin(model->tilt), cos(model->tilt)};
+  solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
+  if (!rear_angle_found(&now->at)) {
+    int code = rear_angle_continued(&from, model, state->steer, state->lean);
+    if (code) return code;
+    solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
+    if (!rear_angle_found(&now->at)) return BIKE_ERROR_GEOMETRY;
+  }
+  if (!regular(&now->k)) return BIKE_ERROR_SINGULAR;
+  form a = now->acceleration;
+  return isfinite(a.phi + a.kap + a.v) ? BIKE_OK : BIKE_ERROR_SINGULAR;
+}
+
+static bike_acceleration named(form a) {
+  return (bike_acceleration){.lean = a.kap, .steer = a.phi, .speed = a.v};
+}
+
+// Hinge rates relative to frame and fork, growing when rolling forward (about -e_N).
+static double rear_hinge(const instant *now) {
+  return now->rate.br - now->rate.spin_r - now->rate.yaw * now->at.s_kap;
+}
+
+static double front_hinge(const instant *now) {
+  return now->k.omega_f.x - now->rate.spin_f;
+}
+
+static double power_of(const instant *now, const bike_model *m, const load *in) {
+  double phi = now->rate.u.phi;
+  double p = (in->steer_torque - m->steer_damping * phi) * phi + in->roll_torque * now->rate.u.kap;
+  return in->w1 == 0 ? p : p + rider_force(now, m, in) * in->w1;
+}
+
+static const bike_input HANDS_OFF = {0};
+
+int bike_accelerate(bike_acceleration *out, const bike_model *model, const bike_state *state,
+                    const bike_input *input) {
+  if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
+  instant now;
+  int code = solve_state(&now, model, state, input ? input : &HANDS_OFF);
+  if (code) return code;
+  *out = named(now.acceleration);
+  return BIKE_OK;
+}
+
+int bike_rates_of(bike_rates *out, const bike_model *model, const bike_state *state,
+                  const bike_input *input) {
+  if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
+  if (!input) input = &HANDS_OFF;
+  instant now;
+  int code = solve_state(&now, model, state, input);
+  if (code) return code;
+  load in = load_of(input);
+  *out = (bike_rates){.acceleration = named(now.acceleration),
+                      .yaw = now.rate.yaw,
+                      .rear_angle = rear_hinge(&now),
+                      .front_angle = front_hinge(&now),
+                      .power = power_of(&now, model, &in)};
+  return BIKE_OK;
+}
+
+int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
+                     double rider_offset) {
+  if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
+  instant now;
+  bike_input input = {.rider_offset = rider_offset};
+  int code = solve_state(&now, model, state, &input);
+  if (code) return code;
+  const double *M = now.k.M; // phi phi, kap kap, v v, phi kap, phi v, kap v
+  double rows[9] = {M[1], M[3], M[5], M[3], M[0], M[4], M[5], M[4], M[2]};
+  for (int i = 0; i < 9; i++) out[i] = rows[i];
+  return BIKE_OK;
+}
+
+static void put_geometry(bike_snapshot *out, const instant *now, const bike_model *m) {
+  const position *g = &now->at;
+  out->beta_r = atan2(g->s_br, g->c_br);
+  out->beta_f = atan2(g->s_bf, g->c_bf);
+  out->psi = atan2(g->s_psi, g->c_psi);
+  out->phi_tilde = atan2(g->s_phit, g->c_phit);
+  out->pitch = m->tilt - out->beta_r;
+  out->T_r = g->T_r;
+  out->T_f = g->T_f;
+  out->Z_0 = g->Z_0;
+}
+
+static void put_rates(bike_snapshot *out, const instant *now) {
+  form a = now->acceleration;
+  out->acceleration = named(a);
+  out->yaw_rate = now->rate.yaw;
+  out->pitch_rate = -now->rate.br;
+  out->front_speed = now->rate.v_f;
+  out->rear_wheel_rate = rear_hinge(now);
+  out->front_wheel_rate = front_hinge(now);
+  out->yaw_acceleration = now->rest.yaw + applied(now->forms.yaw, a);
+  out->pitch_acceleration = -(now->rest.br + applied(now->forms.br, a));
+  // derivatives of the hinge rates: along e_N the frame has alpha_r.x, the fork alpha_f.x
+  double alpha_r = now->k.alpha_r0.x + combined(now->k.rear_partials.W, a).x;
+  double alpha_f = now->k.alpha_f0.x + combined(now->k.front_partials.W, a).x;
+  out->rear_wheel_acceleration = alpha_r - (now->rest.spin_r + applied(now->forms.spin_r, a));
+  out->front_wheel_acceleration = alpha_f - (now->rest.spin_f + applied(now->forms.spin_f, a));
+}
+
+int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state *state,
+                  const bike_input *input) {
+  if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
+  if (!input) input = &HANDS_OFF;
+  instant now;
+  int code = solve_state(&now, model, state, input);
+  if (code) return code;
+  load in = load_of(input);
+  put_geometry(out, &now, model);
+  put_rates(out, &now);
+  energy e = energy_of(&now, model, &in);
+  out->kinetic = e.kinetic;
+  out->potential = e.potential;
+  out->power = power_of(&now, model, &in);
+  ground forces = ground_forces(&now, model, &in);
+  out->rear_force[0] = forces.rear.x;
+  out->rear_force[1] = forces.rear.y;
+  out->rear_force[2] = forces.rear.z;
+  out->front_force[0] = forces.front.x;
+  out->front_force[1] = forces.front.y;
+  out->front_force[2] = forces.front.z;
+  return BIKE_OK;
+}

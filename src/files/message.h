@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// One-line messages about files.
+#ifndef FILES_MESSAGE_H
+#define FILES_MESSAGE_H
+
+#include <bicycle/file.h>
+
+// Writes one line into `error` (may be NULL): control characters become '?', so that what a broken
+// file holds cannot break the line or the terminal. Returns `code`.
+int bike_message(bike_file_error *error, int code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// "path:line: key: what", or "path:line: what" without a key, or "path: what" for line 0.
+int bike_message_at(bike_file_error *error, int code, const char *path, int line, const char *key,
+                    const char *what);
+
+#endif

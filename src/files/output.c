@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bicycle/error.h>
+#include <bicycle/output.h>
+
+#include "message.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+  // Other processes and threads differ by process number and counter, so a name can only be taken
+  // by the leftover of a killed process; a few more names are then tried.
+  NAME_ATTEMPTS = 64,
+  DESCRIPTOR_PATH_SIZE = 64 // "/proc/self/fd/" and an int
+};
+
+static const char *shown(const bike_output *out) { return out->target ? out->target : "output"; }
+
+static int fail(const char *path, int number, bike_file_error *error) {
+  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
+}
+
+static void release(bike_output *out) {
+  free(out->target);
+  free(out->temporary);
+  *out = (bike_output){0};
+}
+
+// Gives `out` the next free name beside its target.
+static int next_temporary(bike_output *out) {
+  static atomic_uint counter;
+  const char *slash = strrchr(out->target, '/');
+  const char *base = slash ? slash + 1 : out->target;
+  const int folder = (int)(base - out->target);
+  free(out->temporary);
+  if (asprintf(&out->temporary, "%.*s.%s.%ld-%u.tmp", folder, out->target, base, (long)getpid(),
+               atomic_fetch_add(&counter, 1U)) < 0) {
+    out->temporary = NULL;
+    return ENOMEM;
+  }
+  return 0;
+}
+
+// A file without a name in the target's folder, or -1 where that does not exist.
+static int open_nameless(const bike_output *out) {
+  if (access("/proc/self/fd", X_OK) != 0) return -1; // linkat needs it to name the file
+  const char *slash = strrchr(out->target, '/');
+  char *folder = slash ? strndup(out->target, (size_t)(slash - out->target) + 1) : strdup(".");
+  const int descriptor = folder ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+  free(folder);
+  return descriptor;
+}
+
+static int open_named(bike_output *out) {
+  for (int i = 0; i < NAME_ATTEMPTS; ++i) {
+    errno = next_temporary(out);
+    if (errno) return -1;
+    const int descriptor = open(out->temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    out->named = descriptor >= 0;
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
+
+// Opens the stream on which a regular file is written aside. `old` is the file to be replaced, or
+// NULL. Returns 0 or errno.
+static int open_aside(bike_output *out, const struct stat *old) {
+  int descriptor = open_nameless(out);
+  if (descriptor < 0) descriptor = open_named(out);
+  if (descriptor < 0) return errno;
+  if (old && fchmod(descriptor, old->st_mode & 07777) != 0) {
+    const int number = errno;
+    close(descriptor);
+    return number;
+  }
+  out->stream = fdopen(descriptor, "w");
+  if (out->stream) return 0;
+  const int number = errno;
+  close(descriptor);
+  return number;
+}
+
+// Opens what `path` names. Returns 0 or errno.
+static int open_target(bike_output *out, const char *path) {
+  struct stat status;
+  if (stat(path, &status) != 0) {
+    if (errno != ENOENT) return errno;
+    if (*path == '\0') return ENOENT;
+    if (path[strlen(path) - 1] == '/') return EISDIR;
+    out->target = strdup(path);
+    return out->target ? open_aside(out, NULL) : ENOMEM;
+  }
+  if (S_ISDIR(status.st_mode)) return EISDIR;
+  if (!S_ISREG(status.st_mode)) {
+    out->stream = fopen(path, "we");
+    return out->stream ? 0 : errno;
+  }
+  if (access(path, W_OK) != 0) return errno; // rename alone would replace a read-only file
+  out->target = realpath(path, NULL);
+  return out->target ? open_aside(out, &status) : errno;
+}
+
+int bike_output_begin(bike_output *out, const char *path, bike_file_error *error) {
+  *out = (bike_output){0};
+  if (!path || strcmp(path, "-") == 0) {
+    out->stream = stdout;
+    return BIKE_OK;
+  }
+  const int number = open_target(out, path);
+  if (!number) return BIKE_OK;
+  bike_output_abort(out);
+  if (number == ENOMEM) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
+  return fail(path, number, error);
+}
+
+// Names the finished nameless file; a leftover of the same name is stepped over.
+static int link_temporary(bike_output *out) {
+  char descriptor[DESCRIPTOR_PATH_SIZE];
+  snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", fileno(out->stream));
+  for (int i = 0; i < NAME_ATTEMPTS; ++i) {
+    const int number = next_temporary(out);
+    if (number) return number;
+    if (linkat(AT_FDCWD, descriptor, AT_FDCWD, out->temporary, AT_SYMLINK_FOLLOW) == 0) {
+      out->named = true;
+      return 0;
+    }
+    if (errno != EEXIST) return errno;
+  }
+  return EEXIST;
+}
+
+// Everything to the file system. A failed write that came earlier has lost its errno: report EIO.
+static int flush(FILE *stream) {
+  const bool failed = ferror(stream) != 0;
+  if (fflush(stream) != 0) return errno;
+  return failed ? EIO : 0;
+}
+
+int bike_output_commit(bike_output *out, bike_file_error *error) {
+  if (!out->stream) return bike_message(error, BIKE_ERROR_ARGUMENT, "no output was begun");
+  int number = flush(out->stream);
+  if (!number && out->target && !out->named) number = link_temporary(out);
+  if (out->stream != stdout && fclose(out->stream) != 0 && !number) number = errno;
+  out->stream = NULL;
+  if (!number && out->target && rename(out->temporary, out->target) != 0) number = errno;
+  if (!number) {
+    release(out);
+    return BIKE_OK;
+  }
+  fail(shown(out), number, error);
+  bike_output_abort(out);
+  return BIKE_ERROR_FILE;
+}
+
+void bike_output_abort(bike_output *out) {
+  if (out->stream && out->stream != stdout) fclose(out->stream);
+  if (out->named) unlink(out->temporary);
+  release(out);
+}

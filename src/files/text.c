@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text.h"
+
+#include "message.h"
+
+#include <bicycle/error.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { FIRST_SIZE = 16384 }; // most bicycle files fit; doubled as needed
+
+static int no_memory(const char *path, bike_file_error *error) {
+  return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
+}
+
+static int too_large(const char *path, size_t limit, bike_file_error *error) {
+  return bike_message(error, BIKE_ERROR_FILE, "%s: is larger than %zu bytes", path, limit);
+}
+
+static int system_error(const char *path, int number, bike_file_error *error) {
+  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
+}
+
+static bool is_control(char c) {
+  return ((unsigned char)c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+}
+
+// The 1-based line of the first control character of the bytes from `from` on, or 0.
+static int control_line(const bike_text *text, size_t from) {
+  for (size_t i = from; i < text->size; ++i) {
+    if (!is_control(text->data[i])) continue;
+    int line = 1;
+    for (size_t k = 0; k < i; ++k) line += text->data[k] == '\n';
+    return line;
+  }
+  return 0;
+}
+
+// Appends the stream's bytes, stopping at the first piece that is not text.
+static int read_stream(bike_text *out, FILE *stream, const char *path, size_t limit,
+                       bike_file_error *error) {
+  size_t capacity = 0;
+  for (;;) {
+    if (capacity - out->size < 2) {
+      capacity = capacity ? 2 * capacity : FIRST_SIZE;
+      char *larger = realloc(out->data, capacity);
+      if (!larger) return no_memory(path, error);
+      out->data = larger;
+    }
+    const size_t from = out->size;
+    out->size += fread(out->data + from, 1, capacity - from - 1, stream);
+    out->data[out->size] = '\0';
+    const int line = control_line(out, from);
+    if (line)
+      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line, NULL,
+                             "control character: this is not a text file");
+    if (out->size > limit) return too_large(path, limit, error);
+    if (ferror(stream)) return system_error(path, errno, error);
+    if (feof(stream)) return BIKE_OK;
+  }
+}
+
+static void drop_byte_order_mark(bike_text *text) {
+  static const char mark[] = "\xef\xbb\xbf";
+  const size_t length = sizeof mark - 1;
+  if (text->size < length || memcmp(text->data, mark, length) != 0) return;
+  text->size -= length;
+  memmove(text->data, text->data + length, text->size + 1);
+}
+
+int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_error *error) {
+  *out = (bike_text){0};
+  FILE *stream = fopen(path, "re");
+  if (!stream) return system_error(path, errno, error);
+  struct stat status;
+  int code = BIKE_OK;
+  if (fstat(fileno(stream), &status) != 0) {
+    code = system_error(path, errno, error);
+  } else if (S_ISDIR(status.st_mode)) {
+    code = system_error(path, EISDIR, error);
+  } else if (S_ISREG(status.st_mode) && (size_t)status.st_size > limit) {
+    code = too_large(path, limit, error);
+  } else {
+    code = read_stream(out, stream, path, limit, error);
+  }
+  fclose(stream);
+  if (code) bike_text_free(out);
+  else drop_byte_order_mark(out);
+  return code;
+}
+
+void bike_text_free(bike_text *text) {
+  free(text->data);
+  *text = (bike_text){0};
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear stability of riding straight and upright: eigenvalues, critical speeds, stable ranges.
+#ifndef BICYCLE_STABILITY_H
+#define BICYCLE_STABILITY_H
+
+#include <bicycle/linear.h>
+
+// Four eigenvalues, in falling order of real, then of imaginary part. Unit 1/s.
+typedef struct bike_eigenvalues {
+  double re[4];
+  double im[4];
+} bike_eigenvalues;
+
+enum { BIKE_MAX_CRITICAL = 16 };
+
+// Critical speeds in rising order, m/s. weave: a complex pair crosses the imaginary axis;
+// capsize: a real eigenvalue crosses zero. A range is stable where all real parts are negative.
+typedef struct bike_critical_speeds {
+  int weave_count;
+  double weave[BIKE_MAX_CRITICAL];
+  int capsize_count;
+  double capsize[BIKE_MAX_CRITICAL];
+  int range_count;
+  double ranges[BIKE_MAX_CRITICAL][2];
+} bike_critical_speeds;
+
+// Eigenvalues of A (row-major, 4 x 4).
+BIKE_API int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]);
+
+// Eigenvalues of upright straight riding at a speed (any sign, zero included).
+BIKE_API int bike_upright_eigenvalues(bike_eigenvalues *out, const bike_model *model, double speed);
+
+// All critical speeds with low <= speed <= high (0 <= low < high), to 1e-13 relative.
+BIKE_API int bike_upright_critical_speeds(bike_critical_speeds *out, const bike_model *model,
+                                          double low, double high);
+
+#endif

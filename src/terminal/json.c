@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terminal/json.h"
+
+#include <math.h>
+
+json_t *term_json_number(double value) {
+  return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *term_json_numbers(const double *values, size_t count) {
+  json_t *array = json_array();
+  for (size_t i = 0; i < count; i++) json_array_append_new(array, term_json_number(values[i]));
+  return array;
+}
+
+json_t *term_json_matrix(const double *values, size_t rows, size_t columns) {
+  json_t *array = json_array();
+  for (size_t i = 0; i < rows; i++)
+    json_array_append_new(array, term_json_numbers(values + i * columns, columns));
+  return array;
+}
+
+json_t *term_json_texts(const char *const *texts, size_t count) {
+  json_t *array = json_array();
+  for (size_t i = 0; i < count; i++) json_array_append_new(array, json_string(texts[i]));
+  return array;
+}
+
+bool term_json_write(json_t *document, FILE *stream) {
+  if (!document) return false;
+  // 17 significant digits identify every double.
+  bool written = json_dumpf(document, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+                 fputc('\n', stream) != EOF;
+  json_decref(document);
+  return written;
+}

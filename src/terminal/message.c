@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terminal/message.h"
+
+#include <bicycle/error.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *program_name = "bicycle";
+
+// Runs at exit: a result that was lost on its way must not look like a success. Streams are not
+// flushed again after it, hence _exit.
+static void check_stdout(void) {
+  errno = 0;
+  bool lost = ferror(stdout) != 0;
+  if (fflush(stdout) != 0 || lost) {
+    term_message("standard output: %s", errno ? strerror(errno) : "write error");
+    _exit(TERM_USAGE);
+  }
+}
+
+void term_begin(const char *program) {
+  static bool begun = false;
+  program_name = program;
+  if (!begun) atexit(check_stdout);
+  begun = true;
+}
+
+const char *term_program(void) {
+  return program_name;
+}
+
+static void message_va(const char *format, va_list arguments) {
+  char *text = NULL;
+  if (vasprintf(&text, format, arguments) < 0) text = NULL;
+  for (char *c = text; c && *c; c++)
+    if ((unsigned char)*c < ' ') *c = ' ';
+  fprintf(stderr, "%s: %s\n", program_name, text ? text : "out of memory");
+  free(text);
+}
+
+void term_message(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  message_va(format, arguments);
+  va_end(arguments);
+}
+
+term_exit term_fail(term_exit code, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  message_va(format, arguments);
+  va_end(arguments);
+  return code;
+}
+
+term_exit term_exit_of(int code) {
+  switch ((bike_error)code) {
+  case BIKE_OK:
+    return TERM_DONE;
+  case BIKE_ERROR_MEMORY:
+  case BIKE_ERROR_SOLVER:
+  case BIKE_ERROR_NO_CONVERGENCE:
+  case BIKE_ERROR_INTERRUPTED:
+    return TERM_INVALID;
+  default:
+    return TERM_USAGE;
+  }
+}
+
+term_exit term_fail_bike(int code, const char *subject) {
+  return term_fail(term_exit_of(code), "%s: %s", subject, bike_error_string(code));
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terminal/number.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Longer than any double printed with %.17g, with room for people who write all their zeros.
+enum { TEXT_SIZE = 128 };
+
+// strtod takes blanks, names and hexadecimal; these characters leave it decimal numbers only.
+static bool is_decimal(const char *text) {
+  return *text && text[strspn(text, "+-.0123456789eE")] == '\0';
+}
+
+bool term_parse_number(double *out, const char *text) {
+  if (!is_decimal(text)) return false;
+  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+  if (!plain) return false;
+  char *end;
+  double value = strtod_l(text, &end, plain);
+  freelocale(plain);
+  if (end == text || *end || !isfinite(value)) return false;
+  *out = value;
+  return true;
+}
+
+bool term_parse_angle(double *out, const char *text) {
+  static const char suffix[] = "deg";
+  size_t length = strlen(text);
+  size_t tail = sizeof suffix - 1;
+  if (length <= tail || strcmp(text + length - tail, suffix) != 0)
+    return term_parse_number(out, text);
+  char number[TEXT_SIZE];
+  if (length - tail >= sizeof number) return false;
+  memcpy(number, text, length - tail);
+  number[length - tail] = '\0';
+  double degrees;
+  if (!term_parse_number(&degrees, number)) return false;
+  *out = degrees * (M_PI / 180);
+  return true;
+}
+
+bool term_parse_integer(long *out, const char *text, long low, long high) {
+  char *end;
+  if (!*text || text[strspn(text, "+-0123456789")] != '\0') return false;
+  errno = 0;
+  long value = strtol(text, &end, 10);
+  if (errno || end == text || *end || value < low || value > high) return false;
+  *out = value;
+  return true;
+}
+
+// Splits at ':' into exactly `count` texts, each not empty.
+static bool split(char *text, char *part[], int count) {
+  for (int i = 0; i < count; i++) {
+    part[i] = text;
+    char *colon = strchr(text, ':');
+    if (colon == text || !*text || (colon != NULL) != (i < count - 1)) return false;
+    if (colon) {
+      *colon = '\0';
+      text = colon + 1;
+    }
+  }
+  return true;
+}
+
+static bool copy_text(char out[TEXT_SIZE], const char *text) {
+  return snprintf(out, TEXT_SIZE, "%s", text) < TEXT_SIZE;
+}
+
+bool term_parse_interval(double out[2], const char *text) {
+  char copy[TEXT_SIZE], *part[2];
+  double value[2];
+  if (!copy_text(copy, text) || !split(copy, part, 2)) return false;
+  if (!term_parse_number(&value[0], part[0]) || !term_parse_number(&value[1], part[1]))
+    return false;
+  if (!(value[0] < value[1])) return false;
+  memcpy(out, value, sizeof value);
+  return true;
+}
+
+bool term_parse_range(term_range *out, const char *text) {
+  char copy[TEXT_SIZE], *part[3];
+  term_range range;
+  if (!copy_text(copy, text) || !split(copy, part, 3)) return false;
+  if (!term_parse_number(&range.first, part[0]) || !term_parse_number(&range.last, part[1]) ||
+      !term_parse_integer(&range.count, part[2], 1, TERM_MAX_RANGE))
+    return false;
+  bool one_point = range.first == range.last;
+  if (range.first > range.last || one_point != (range.count == 1)) return false;
+  *out = range;
+  return true;
+}
+
+double term_range_point(const term_range *range, long index) {
+  if (index == range->count - 1) return range->last;
+  return range->first + (range->last - range->first) * (double)index / (double)(range->count - 1);
+}
