@@ -36,17 +36,26 @@ static void rotate(double A[9], double V[9], int p, int q) {
   A[3 * p + q] = A[3 * q + p] = 0;
 }
 
-void mjcf_principal(double moments[3], double quat[4], const double inertia[6]) {
-  double A[9], V[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+// inertia = V diag(moments) V^T
+static void diagonalise(double moments[3], double V[9], const double inertia[6]) {
+  const double unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  double A[9];
   unpack(A, inertia);
+  memcpy(V, unit, sizeof unit);
   // Jacobi's method converges quadratically: 3 x 3 needs five sweeps for the last bit, ten are safe.
   for (int sweep = 0; sweep < 10; sweep++) {
     rotate(A, V, 0, 1);
     rotate(A, V, 0, 2);
     rotate(A, V, 1, 2);
   }
+  for (int k = 0; k < 3; k++) moments[k] = A[4 * k];
+}
+
+void mjcf_principal(double moments[3], double quat[4], const double inertia[6]) {
+  double V[9];
+  diagonalise(moments, V, inertia);
   // A rank-1 tensor's zero moments come out as roundings of either sign.
-  for (int k = 0; k < 3; k++) moments[k] = fmax(A[4 * k], 0);
+  for (int k = 0; k < 3; k++) moments[k] = fmax(moments[k], 0);
   mju_mat2Quat(quat, V);
 }
 
@@ -79,15 +88,23 @@ void mjcf_body_inertia(double out[6], const mjModel *model, int body) {
 
 // Smallest eigenvalue against the largest; what files hold is rounded at the 17th digit.
 static bool is_semidefinite(const double inertia[6]) {
-  double A[9], V[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  unpack(A, inertia);
-  for (int sweep = 0; sweep < 10; sweep++) {
-    rotate(A, V, 0, 1);
-    rotate(A, V, 0, 2);
-    rotate(A, V, 1, 2);
-  }
-  double largest = fmax(A[0], fmax(A[4], A[8])), least = fmin(A[0], fmin(A[4], A[8]));
+  double m[3], V[9];
+  diagonalise(m, V, inertia);
+  double largest = fmax(m[0], fmax(m[1], m[2])), least = fmin(m[0], fmin(m[1], m[2]));
   return least >= -1e-12 * largest;
+}
+
+// MuJoCo takes a frame that the compiler found equal to the principal axes for these axes, which have
+// now turned.
+static void forget_same_frames(mjModel *model, int body) {
+  enum { EQUALS_PRINCIPAL_AXES = 2 };
+  model->body_sameframe[body] = 0;
+  for (int i = 0; i < model->ngeom; i++)
+    if (model->geom_bodyid[i] == body && model->geom_sameframe[i] == EQUALS_PRINCIPAL_AXES)
+      model->geom_sameframe[i] = 0;
+  for (int i = 0; i < model->nsite; i++)
+    if (model->site_bodyid[i] == body && model->site_sameframe[i] == EQUALS_PRINCIPAL_AXES)
+      model->site_sameframe[i] = 0;
 }
 
 static bool apply_one(mjModel *model, int numeric, const char *body_name, mjcf_error *error) {
@@ -103,8 +120,7 @@ static bool apply_one(mjModel *model, int numeric, const char *body_name, mjcf_e
   if (!is_semidefinite(data))
     return mjcf_fail(error, "numeric 'inertia:%s': not positive semidefinite", body_name);
   mjcf_principal(model->body_inertia + 3 * body, model->body_iquat + 4 * body, data);
-  // Else MuJoCo takes the orientation of the body's frame for that of its principal axes.
-  model->body_sameframe[body] = 0;
+  forget_same_frames(model, body);
   return true;
 }
 

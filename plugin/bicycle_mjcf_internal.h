@@ -41,13 +41,16 @@ void mjcf_principal(double moments[3], double quat[4], const double inertia[6]);
 // Raises the moments to the nearest that MJCF takes; false if they already were.
 bool mjcf_make_legal(double moments[3]);
 
-// ` name="a b c"` with 17 digits; with the 4 digits that a picture needs.
+// ` name="a b c"` with 17 digits.
 void mjcf_put(FILE *out, const char *name, const double *values, int count);
-void mjcf_put_short(FILE *out, const char *name, const double *values, int count);
 
-// What is only looked at: texture and colours, lights, and the geoms of one body, indented.
+// The blanks before a line of a body, or of what stands `deeper` in it.
+void mjcf_indent(FILE *out, bike_assembly body, int deeper);
+
+// What is only looked at: colours; lights and cameras; the geoms of one body.
 void mjcf_put_assets(FILE *out);
 void mjcf_put_scenery(FILE *out);
+void mjcf_put_cameras(FILE *out);
 void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body);
 
 #endif

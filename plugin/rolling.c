@@ -18,11 +18,10 @@ static void warn_of_sensors(const mjModel *m, const mjData *d) {
 
 // MuJoCo's solver may start from qacc_warmstart: within the constraints it never leaves them,
 // however early it stops.  qacc += M^-1 J^T A^+ (target - J qacc)
-static void project_warmstart(const roll_system *s, mjData *d) {
+static void project_warmstart(roll_system *s, const mjModel *m, mjData *d) {
   mju_mulMatVec(s->row_work, s->J, d->qacc_warmstart, s->rows, s->nv);
   mju_sub(s->row_work, s->target, s->row_work, s->rows);
-  roll_solve(s->row_work, &s->A, s->row_work);
-  mju_mulMatTVec(s->dof_work, s->MinvJT, s->row_work, s->rows, s->nv);
+  roll_find_change(s, s->row_work, m, d);
   mju_addTo(d->qacc_warmstart, s->dof_work, s->nv);
 }
 
@@ -40,7 +39,7 @@ static void constrain(const mjModel *m, mjData *d) {
     mju_addTo(d->qfrc_passive, system.dof_work, system.nv);
     if (solver_rows) {
       roll_project_solver_rows(NULL, &system, m, d);
-      project_warmstart(&system, d);
+      project_warmstart(&system, m, d);
     }
   }
   mjFREESTACK;

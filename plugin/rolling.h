@@ -20,10 +20,9 @@
 //
 // What one must know
 // - Units are SI and radians; vectors are in the world frame; forces act ON the wheel.
-// - Exact under RK4 (with slides and hinges as root the integration is of order 4, with a free
-// joint
-//   of order 2). Joint damping under Euler, and any velocity-dependent force under the integrator
-//   "implicit", is integrated after the fact by MuJoCo and violates the constraint by O(timestep).
+// - Exact under RK4: order 4 with slides and hinges as root, 2 with a free joint (that is MuJoCo's
+//   order for quaternions). Euler and implicit integrate with order 1 and treat some forces after
+//   the solve: at 1 ms a bicycle's wheels then slip by 1e-3 m/s.
 // - Controls changed between mj_step1 and mj_step2 are seen too late: use mj_step, or set controls
 //   in an mjcb_control of your own, installed before this one.
 // - Joint limits, friction loss, equalities and contacts of other geoms are exact with a dense
@@ -60,7 +59,7 @@ extern "C" {
   X(ROLL_FLAT, "a rolling disc lies flat: it has no single contact point")                         \
   X(ROLL_NO_STACK, "too little mjData stack for the rolling discs: raise nstack")                  \
   X(ROLL_NOT_FINITE, "the state holds a number that is not finite")                                \
-  X(ROLL_NO_CONVERGENCE, "no state with all rolling discs on the ground near the given one")       \
+  X(ROLL_NO_CONVERGENCE, "rolling discs: no state on the ground near the given one")               \
   X(ROLL_NOT_INSTALLED, "mjcb_control is not roll_control")
 
 typedef enum roll_error {
@@ -121,9 +120,11 @@ ROLL_API roll_error roll_uninstall(void);
 ROLL_API int roll_is_installed(void);
 
 // Makes the state consistent with the constraints: positions by Newton's method on the heights,
-// then velocities, both by the change that is smallest in the metric of the mass matrix. Ends with
-// mj_forward; heights (m) and contact velocities (m/s) are then below 1e-13 for bicycle-sized
-// models. On an error the state is as it was (qpos, qvel; derived quantities need an mj_forward).
+// then velocities, both by the change that is smallest in the metric of the mass matrix. That keeps
+// what fits (a lean rate with the hub velocity that belongs to it) and spreads what does not over
+// all coordinates. Ends with mj_forward; heights (m) and contact velocities (m/s, as a share of 1 +
+// the largest |qvel|) are then below 1e-13. On an error qpos and qvel are as they were, and derived
+// quantities need an mj_forward.
 ROLL_API roll_error roll_project(const mjModel *m, mjData *d);
 
 #ifdef __cplusplus

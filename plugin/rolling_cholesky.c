@@ -9,33 +9,39 @@
 // M^-1 (1e-13 for a mass matrix of condition 1e3).
 static const mjtNum dependent = 1e-10;
 
+static mjtNum dot(const mjtNum *a, const mjtNum *b, int n) {
+  mjtNum sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i] * b[i];
+  return sum;
+}
+
 // Makes of a symmetric matrix its lower triangular factor, in place, with a column only for rows
 // that are independent of those before them. Row i of A is not needed once row i of L is there, and
-// pivot[k] >= k: no entry is overwritten before it is used.
-static int factorise(mjtNum *A, int *pivot, int n) {
+// pivot[k] >= k: no entry is overwritten before it is used. inverse[k] = 1/L[pivot[k]][k].
+static int factorise(mjtNum *A, mjtNum *inverse, int *pivot, int n) {
   int rank = 0;
   for (int i = 0; i < n; i++) {
     mjtNum *row = A + i * n, diagonal = row[i], left = diagonal;
     for (int k = 0; k < rank; k++) {
-      const mjtNum *earlier = A + pivot[k] * n;
-      row[k] = (row[pivot[k]] - mju_dot(row, earlier, k)) / earlier[k];
+      row[k] = (row[pivot[k]] - dot(row, A + pivot[k] * n, k)) * inverse[k];
       left -= row[k] * row[k];
     }
-    mju_zero(row + rank, n - rank);
+    for (int k = rank; k < n; k++) row[k] = 0;
     // An independent row opens a column; a NaN counts as independent, to be seen in the result.
     if (!(left <= dependent * diagonal)) {
       row[rank] = sqrt(left);
+      inverse[rank] = 1 / row[rank];
       pivot[rank++] = i;
     }
   }
   return rank;
 }
 
-// x = (L L^T)^-1 x for a full n x n lower triangle.
-static void substitute(mjtNum *x, const mjtNum *L, int n) {
-  for (int i = 0; i < n; i++) x[i] = (x[i] - mju_dot(L + i * n, x, i)) / L[i * n + i];
+// x = (L L^T)^-1 x for a full n x n lower triangle with the inverses of its diagonal.
+static void substitute(mjtNum *x, const mjtNum *L, const mjtNum *inverse, int n) {
+  for (int i = 0; i < n; i++) x[i] = (x[i] - dot(L + i * n, x, i)) * inverse[i];
   for (int i = n - 1; i >= 0; i--) {
-    x[i] /= L[i * n + i];
+    x[i] *= inverse[i];
     for (int k = 0; k < i; k++) x[k] -= L[i * n + k] * x[i];
   }
 }
@@ -55,22 +61,22 @@ static void gram(mjtNum *G, const roll_factor *f) {
 }
 
 void roll_factorise(roll_factor *f) {
-  f->rank = factorise(f->L, f->pivot, f->n);
+  f->rank = factorise(f->L, f->inverse, f->pivot, f->n);
   if (f->rank == f->n) return;
   gram(f->G, f);
-  factorise(f->G, f->pivot, f->rank); // columns are independent: full rank again
+  factorise(f->G, f->inverse, f->pivot, f->rank); // columns are independent: full rank again
 }
 
 void roll_solve(mjtNum *x, const roll_factor *f, const mjtNum *b) {
   if (f->rank == f->n) {
     if (x != b) mju_copy(x, b, f->n);
-    substitute(x, f->L, f->n);
+    substitute(x, f->L, f->inverse, f->n);
     return;
   }
   // A^+ b = L G^-1 G^-1 L^T b with G = L^T L
   mjtNum *y = f->work;
   multiply_transposed(y, f, b);
-  substitute(y, f->G, f->rank);
-  substitute(y, f->G, f->rank);
-  for (int i = 0; i < f->n; i++) x[i] = mju_dot(f->L + i * f->n, y, f->rank);
+  substitute(y, f->G, f->inverse, f->rank);
+  substitute(y, f->G, f->inverse, f->rank);
+  for (int i = 0; i < f->n; i++) x[i] = dot(f->L + i * f->n, y, f->rank);
 }

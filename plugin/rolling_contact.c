@@ -34,7 +34,7 @@ roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel, co
   mju_cross(across, n, u);
   mjtNum s = contact->sine = mju_norm3(across);
   mjtNum cosine = contact->cosine = mju_dot3(n, u);
-  if (!(s > flat_sine)) return ROLL_FLAT;
+  if (s <= flat_sine) return ROLL_FLAT; // a NaN goes on, for MuJoCo to find in qacc
 
   // e = -(u - (n.u) n)/s;  p = c + R e;  g = (c - o).u - R s
   for (int k = 0; k < 3; k++) {

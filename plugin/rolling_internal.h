@@ -58,10 +58,11 @@ void roll_move_contact(roll_contact *contact, const mjModel *m, const mjData *d)
 typedef struct roll_factor {
   int n;
   int rank;
-  int *pivot;   // n: scratch
-  mjtNum *L;    // n x n, row-major: first A, then its factor in the first `rank` columns
-  mjtNum *G;    // n x n: factor of L^T L (rank x rank, packed), only if rank < n
-  mjtNum *work; // n: scratch
+  int *pivot;      // n: scratch
+  mjtNum *L;       // n x n, row-major: first A, then its factor in the first `rank` columns
+  mjtNum *G;       // n x n: factor of L^T L (rank x rank, packed), only if rank < n
+  mjtNum *inverse; // n: of the diagonal of L, or of G if rank < n
+  mjtNum *work;    // n: scratch
 } roll_factor;
 
 // Replaces the matrix in f->L by its factor.
@@ -78,7 +79,7 @@ typedef struct roll_system {
   int rows;              // 3 for each disc that rolls at this moment: world x, y, z
   roll_contact *contact; // discs
   mjtNum *J;             // rows x nv: velocity of the wheels' material at the contact points
-  mjtNum *MinvJT;        // rows x nv: row i is M^-1 J_i
+  mjtNum *Y;             // rows x nv: J M^-1/2, so that J M^-1 J^T = Y Y^T
   mjtNum *target;        // rows: demanded J qacc, m/s^2
   mjtNum *lambda;        // rows: forces on the wheels, N
   mjtNum *row_work;      // rows: scratch
@@ -91,8 +92,14 @@ typedef struct roll_system {
 // roll.
 roll_error roll_build_system(roll_system *s, const mjModel *m, mjData *d);
 
-// Factor of J M^-1 J^T, from J and MinvJT.
+// Factor of J M^-1 J^T from Y.
 void roll_factor_system(roll_system *s);
+
+// a (rows) = J M^-1 f, f a generalised force (nv); overwrites dof_work (f may be it).
+void roll_map_force(mjtNum *a, roll_system *s, const mjtNum *f, const mjModel *m, mjData *d);
+
+// dof_work = M^-1 J^T A^+ a: the smallest change of qacc (or qvel) that changes J qacc by a (rows).
+void roll_find_change(roll_system *s, const mjtNum *a, const mjModel *m, mjData *d);
 
 // Velocities: velocity, convective and target of every contact.
 void roll_set_target(roll_system *s, const mjModel *m, const mjData *d);
@@ -111,7 +118,7 @@ void roll_reset_solver_rows(const mjModel *m, mjData *d);
 
 // Makes the rows respect the discs; adds to `reaction` (rows x 1, may be NULL) the contact forces
 // that the rows' present forces call for.
-void roll_project_solver_rows(mjtNum *reaction, const roll_system *s, const mjModel *m, mjData *d);
+void roll_project_solver_rows(mjtNum *reaction, roll_system *s, const mjModel *m, mjData *d);
 
 //---------------------------------- messages (rolling_error.c) ------------------------------------
 

@@ -21,28 +21,22 @@ static mjtNum largest(const mjtNum *x, int n) {
   return most;
 }
 
-// Leaves of the system the heights alone: row i becomes u.J of disc i, and row_work the heights.
-static void keep_heights(roll_system *s) {
+// Row i of an array of three rows a disc becomes their sum, weighted with the ground's normal.
+static void keep_normal_rows(mjtNum *rows, int discs, int nv) {
   const mjtNum *u = roll_ground()->normal;
-  int nv = s->nv;
-  for (int i = 0; i < s->discs; i++) {
-    s->row_work[i] = s->contact[i].height;
+  for (int i = 0; i < discs; i++)
     for (int k = 0; k < nv; k++) {
-      const mjtNum *J = s->J + 3 * i * nv + k, *W = s->MinvJT + 3 * i * nv + k;
-      mjtNum column[3] = {J[0], J[nv], J[2 * nv]}, w[3] = {W[0], W[nv], W[2 * nv]};
-      s->J[i * nv + k] = mju_dot3(column, u);
-      s->MinvJT[i * nv + k] = mju_dot3(w, u);
+      const mjtNum *at = rows + 3 * i * nv + k;
+      rows[i * nv + k] = at[0] * u[0] + at[nv] * u[1] + at[2 * nv] * u[2];
     }
-  }
-  s->rows = s->discs;
-  roll_factor_system(s);
 }
 
-// dof_work = -M^-1 J^T A^+ (what row_work holds): the smallest change that removes it.
-static void find_change(roll_system *s) {
-  roll_solve(s->row_work, &s->A, s->row_work);
-  mju_mulMatTVec(s->dof_work, s->MinvJT, s->row_work, s->rows, s->nv);
-  mju_scl(s->dof_work, s->dof_work, -1, s->nv);
+// Leaves of the system the rates of the heights alone.
+static void keep_heights(roll_system *s) {
+  keep_normal_rows(s->J, s->discs, s->nv);
+  keep_normal_rows(s->Y, s->discs, s->nv);
+  s->rows = s->discs;
+  roll_factor_system(s);
 }
 
 static roll_error build_at(roll_system *s, const mjModel *m, mjData *d) {
@@ -60,8 +54,9 @@ static roll_error step_to_ground(mjtNum *height, const mjModel *m, mjData *d) {
   roll_error error = build_at(&system, m, d);
   if (!error) {
     keep_heights(&system);
-    *height = largest(system.row_work, system.rows);
-    find_change(&system);
+    for (int i = 0; i < system.rows; i++) system.target[i] = -system.contact[i].height;
+    *height = largest(system.target, system.rows);
+    roll_find_change(&system, system.target, m, d);
     mj_integratePos(m, d->qpos, system.dof_work, 1);
   }
   mjFREESTACK;
@@ -80,22 +75,27 @@ static roll_error project_positions(const mjModel *m, mjData *d) {
   return ROLL_NO_CONVERGENCE;
 }
 
+// The largest velocity of a contact point, left in system->target.
+static mjtNum contact_speed(roll_system *s, const mjData *d) {
+  mju_mulMatVec(s->target, s->J, d->qvel, s->rows, s->nv);
+  return largest(s->target, s->rows);
+}
+
 static roll_error project_velocities(const mjModel *m, mjData *d) {
   mjMARKSTACK;
   roll_system system;
-  mjtNum speed = 0;
   roll_error error = build_at(&system, m, d);
+  mjtNum speed = error ? 0 : contact_speed(&system, d);
   // v -= M^-1 J^T A^+ J v, the second time to remove the rounding of the first
-  for (int pass = 0; !error && pass < 3; pass++) {
-    mju_mulMatVec(system.row_work, system.J, d->qvel, system.rows, m->nv);
-    speed = largest(system.row_work, system.rows);
-    if (pass == 2) break;
-    find_change(&system);
-    mju_addTo(d->qvel, system.dof_work, m->nv);
+  for (int pass = 0; !error && pass < 2; pass++) {
+    roll_find_change(&system, system.target, m, d);
+    mju_subFrom(d->qvel, system.dof_work, m->nv);
+    speed = contact_speed(&system, d);
   }
   mjFREESTACK;
   if (error) return error;
-  return speed <= consistent * (1 + largest(d->qvel, m->nv)) ? ROLL_OK : ROLL_NOT_FINITE;
+  if (!isfinite(speed)) return ROLL_NOT_FINITE;
+  return speed <= consistent * (1 + largest(d->qvel, m->nv)) ? ROLL_OK : ROLL_NO_CONVERGENCE;
 }
 
 roll_error roll_project(const mjModel *m, mjData *d) {

@@ -30,7 +30,7 @@ static void find_forces(roll_system *s, const mjModel *m, mjData *d) {
     s->dof_work[i] -= rest;
   }
   // A lambda = J M^-1 (J^T lambda)
-  mju_mulMatVec(s->lambda, s->MinvJT, s->dof_work, s->rows, s->nv);
+  roll_map_force(s->lambda, s, s->dof_work, m, d);
   roll_solve(s->lambda, &s->A, s->lambda);
 }
 

@@ -26,11 +26,11 @@ void roll_reset_solver_rows(const mjModel *m, mjData *d) {
   mj_referenceConstraint(m, d);
 }
 
-void roll_project_solver_rows(mjtNum *reaction, const roll_system *s, const mjModel *m, mjData *d) {
+void roll_project_solver_rows(mjtNum *reaction, roll_system *s, const mjModel *m, mjData *d) {
   mjtNum *z = s->row_work;
   for (int row = 0; row < d->nefc; row++) {
     mjtNum *Je = d->efc_J + row * m->nv;
-    mju_mulMatVec(z, s->MinvJT, Je, s->rows, s->nv);
+    roll_map_force(z, s, Je, m, d);
     roll_solve(z, &s->A, z);
     for (int i = 0; i < s->rows; i++) mju_addToScl(Je, s->J + i * s->nv, -z[i], s->nv);
     d->efc_aref[row] -= mju_dot(z, s->target, s->rows);

@@ -16,16 +16,17 @@ static int numbers(int n, size_t size) {
 static roll_error take_memory(roll_system *s, int discs, int nv, mjData *d) {
   int n = 3 * discs, contacts = numbers(discs, sizeof(roll_contact));
   int pivots = numbers(n, sizeof(int));
-  int size = contacts + pivots + 2 * n * nv + 2 * n * n + 4 * n + nv;
+  int size = contacts + pivots + 2 * n * nv + 2 * n * n + 5 * n + nv;
   int for_apply_ft = 6 * nv; // mj_applyFT takes two 3 x nv Jacobians
   if (size + for_apply_ft > d->nstack - d->pstack) return ROLL_NO_STACK;
   mjtNum *next = mj_stackAlloc(d, size);
   s->contact = (roll_contact *)next, next += contacts;
   s->A.pivot = (int *)next, next += pivots;
   s->J = next, next += n * nv;
-  s->MinvJT = next, next += n * nv;
+  s->Y = next, next += n * nv;
   s->A.L = next, next += n * n;
   s->A.G = next, next += n * n;
+  s->A.inverse = next, next += n;
   s->A.work = next, next += n;
   s->target = next, next += n;
   s->lambda = next, next += n;
@@ -35,12 +36,23 @@ static roll_error take_memory(roll_system *s, int discs, int nv, mjData *d) {
 }
 
 void roll_factor_system(roll_system *s) {
-  // A = J M^-1 J^T; its lower triangle is enough
+  // A = Y Y^T; its lower triangle is enough
   s->A.n = s->rows;
   for (int i = 0; i < s->rows; i++)
     for (int k = 0; k <= i; k++)
-      s->A.L[i * s->rows + k] = mju_dot(s->J + i * s->nv, s->MinvJT + k * s->nv, s->nv);
+      s->A.L[i * s->rows + k] = mju_dot(s->Y + i * s->nv, s->Y + k * s->nv, s->nv);
   roll_factorise(&s->A);
+}
+
+void roll_map_force(mjtNum *a, roll_system *s, const mjtNum *f, const mjModel *m, mjData *d) {
+  mj_solveM2(m, d, s->dof_work, f, 1);
+  mju_mulMatVec(a, s->Y, s->dof_work, s->rows, s->nv);
+}
+
+void roll_find_change(roll_system *s, const mjtNum *a, const mjModel *m, mjData *d) {
+  roll_solve(s->row_work, &s->A, a);
+  mju_mulMatTVec(s->dof_work, s->J, s->row_work, s->rows, s->nv);
+  mj_solveM(m, d, s->dof_work, s->dof_work, 1);
 }
 
 // Contact and rows of one disc.
@@ -67,7 +79,7 @@ roll_error roll_build_system(roll_system *s, const mjModel *m, mjData *d) {
     roll_error error = add_disc(s, s->contact + i, marker.first + i, m, d);
     if (!first) first = error;
   }
-  mj_solveM(m, d, s->MinvJT, s->J, s->rows);
+  mj_solveM2(m, d, s->Y, s->J, s->rows);
   roll_factor_system(s);
   return first;
 }
@@ -103,7 +115,7 @@ static void sum_forces(mjtNum *f, const mjModel *m, mjData *d) {
 void roll_set_lambda(roll_system *s, const mjModel *m, mjData *d) {
   // (J M^-1 J^T) lambda = target - J M^-1 f
   sum_forces(s->dof_work, m, d);
-  mju_mulMatVec(s->lambda, s->MinvJT, s->dof_work, s->rows, s->nv);
+  roll_map_force(s->lambda, s, s->dof_work, m, d);
   mju_sub(s->lambda, s->target, s->lambda, s->rows);
   roll_solve(s->lambda, &s->A, s->lambda);
 }

@@ -55,11 +55,11 @@ static const struct argp_option options[] = {
 };
 
 // What is shown. The names are those of the JSON document.
-typedef struct answer {
+typedef struct linear_answer {
   bike_upright_matrices upright;
   bike_linear linear;
   bool has_upright; // the bicycle is mirror-symmetric
-} answer;
+} linear_answer;
 
 enum { Q_COUNT = 2, X_COUNT = 4, U_COUNT = 3 };
 
@@ -81,7 +81,7 @@ static void convert(double *matrix, const bool *row_left, int rows, const bool *
       if (row_left[i] != column_left[j]) matrix[i * columns + j] *= left;
 }
 
-static void convert_all(answer *out, double left) {
+static void convert_all(linear_answer *out, double left) {
   double *const upright[] = {out->upright.M, out->upright.C1, out->upright.K0, out->upright.K2};
   for (int i = 0; i < 4; i++) convert(upright[i], q_left, Q_COUNT, q_left, Q_COUNT, left);
   convert(out->linear.A, x_left, X_COUNT, x_left, X_COUNT, left);
@@ -89,14 +89,15 @@ static void convert_all(answer *out, double left) {
 }
 
 // The upright matrices, or null for a bicycle that has none.
-static json_t *upright_json(const answer *answer, const double matrix[4]) {
+static json_t *upright_json(const linear_answer *answer, const double matrix[4]) {
   return answer->has_upright ? term_json_matrix(matrix, Q_COUNT, Q_COUNT) : json_null();
 }
 
 static const char no_upright[] = "the bicycle is not mirror-symmetric: upright straight riding is "
                                  "not a stationary motion";
 
-static bool print_json(const bike_bicycle *bicycle, const arguments *args, const answer *answer) {
+static bool print_json(const bike_bicycle *bicycle, const arguments *args,
+                       const linear_answer *answer) {
   const bike_upright_matrices *upright = &answer->upright;
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name,
@@ -107,8 +108,7 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args, const
       term_json_texts(states, X_COUNT), "inputs", term_json_texts(inputs, U_COUNT), "A",
       term_json_matrix(answer->linear.A, X_COUNT, X_COUNT), "B",
       term_json_matrix(answer->linear.B, X_COUNT, U_COUNT));
-  if (!answer->has_upright)
-    json_object_set_new(document, "reason", json_string(no_upright));
+  if (!answer->has_upright) json_object_set_new(document, "reason", json_string(no_upright));
   return term_json_write(document, stdout);
 }
 
@@ -138,7 +138,7 @@ static bool print_q(const char *title, const double matrix[4]) {
 }
 
 static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
-                         const answer *answer) {
+                         const linear_answer *answer) {
   const bike_upright_matrices *upright = &answer->upright;
   printf("%s at %g m/s, convention %s\n", bicycle->name, args->speed,
          term_convention_name(args->show.convention));
@@ -148,13 +148,12 @@ static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
               print_q("K0", upright->K0) && print_q("K2", upright->K2);
   else
     printf("\nno M, C1, K0, K2: %s\n", no_upright);
-  return printed &&
-         print_matrix("A", answer->linear.A, states, X_COUNT, states, X_COUNT) &&
+  return printed && print_matrix("A", answer->linear.A, states, X_COUNT, states, X_COUNT) &&
          print_matrix("B", answer->linear.B, states, X_COUNT, inputs, U_COUNT);
 }
 
 // The linearisation at upright riding. An error code of the library.
-static int linearise(answer *out, const bike_model *model, double speed) {
+static int linearise(linear_answer *out, const bike_model *model, double speed) {
   const bike_state state = {.speed = speed};
   const bike_input input = {0};
   int error = bike_linearize_upright(&out->upright, model);
@@ -174,7 +173,7 @@ int cmd_linear(int argc, char **argv) {
   term_exit code = term_load_bicycle(&bicycle, &model, args.file);
   if (code != TERM_DONE) return code;
 
-  answer answer = {0};
+  linear_answer answer = {0};
   int error = linearise(&answer, &model, args.speed);
   if (error != BIKE_OK) return term_fail_bike(error, args.file);
   convert_all(&answer, term_left_sign(args.show.convention));

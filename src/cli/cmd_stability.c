@@ -109,9 +109,9 @@ static void format_eigenvalue(char out[64], double re, double im) {
 }
 
 static bool print_eigenvalues(const term_range *speeds, const bike_eigenvalues *values) {
-  static const term_column columns[] = {{"speed", TERM_RIGHT},       {"eigenvalues", TERM_RIGHT},
-                                        {"", TERM_RIGHT},            {"", TERM_RIGHT},
-                                        {"", TERM_RIGHT},            {"stable", TERM_LEFT}};
+  static const term_column columns[] = {{"speed", TERM_RIGHT}, {"eigenvalues", TERM_RIGHT},
+                                        {"", TERM_RIGHT},      {"", TERM_RIGHT},
+                                        {"", TERM_RIGHT},      {"stable", TERM_LEFT}};
   term_table *table = term_table_create(columns, 6);
   for (long i = 0; i < speeds->count; i++) {
     char speed[32], text[4][64];

@@ -90,7 +90,7 @@ static json_t *force_json(const double force[3], double left) {
 }
 
 static bool print_json(const bike_bicycle *bicycle, const answer answers[ANSWER_COUNT],
-                       const bike_snapshot *snapshot, term_convention convention) {
+                       const bike_snapshot *snapshot, bike_convention convention) {
   double left = term_left_sign(convention);
   json_t *document = json_pack("{s:s, s:s}", "bicycle", bicycle->name, "convention",
                                term_convention_name(convention));
@@ -110,7 +110,7 @@ static void add_number(term_table *table, const char *name, double value, const 
 }
 
 static void add_force(term_table *table, const char *wheel, const double force[3],
-                      term_convention convention) {
+                      bike_convention convention) {
   const char *const axis[3] = {"forward", term_lateral_name(convention), "up"};
   for (int i = 0; i < 3; i++) {
     char name[64];
@@ -120,7 +120,7 @@ static void add_force(term_table *table, const char *wheel, const double force[3
 }
 
 static bool print_table(const bike_bicycle *bicycle, const answer answers[ANSWER_COUNT],
-                        const bike_snapshot *snapshot, term_convention convention) {
+                        const bike_snapshot *snapshot, bike_convention convention) {
   static const term_column columns[] = {
       {"quantity", TERM_LEFT}, {"value", TERM_RIGHT}, {"unit", TERM_LEFT}};
   term_table *table = term_table_create(columns, 3);
@@ -152,8 +152,7 @@ int cmd_state(int argc, char **argv) {
 
   answer answers[ANSWER_COUNT];
   collect(answers, &args.start.state, &snapshot, term_left_sign(args.show.convention));
-  bool printed = args.show.json
-                     ? print_json(&bicycle, answers, &snapshot, args.show.convention)
-                     : print_table(&bicycle, answers, &snapshot, args.show.convention);
+  bool printed = args.show.json ? print_json(&bicycle, answers, &snapshot, args.show.convention)
+                                : print_table(&bicycle, answers, &snapshot, args.show.convention);
   return printed ? TERM_DONE : term_fail_bike(BIKE_ERROR_MEMORY, args.start.file);
 }

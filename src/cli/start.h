@@ -11,9 +11,9 @@
 #include <stdbool.h>
 
 typedef struct cli_start {
-  const char *file;  // the bicycle: required
-  bike_state state;  // zero where not given
-  bool has_speed;    // required
+  const char *file; // the bicycle: required
+  bike_state state; // zero where not given
+  bool has_speed;   // required
 } cli_start;
 
 // FILE, --lean, --steer, --lean-rate, --steer-rate, --speed: a child parser whose input is a
@@ -21,7 +21,6 @@ typedef struct cli_start {
 extern const struct argp cli_start_argp;
 
 // Loads the bicycle, and refuses a rider offset without a rider.
-term_exit cli_load(bike_bicycle *bicycle, bike_model *model, const char *file,
-                   double rider_offset);
+term_exit cli_load(bike_bicycle *bicycle, bike_model *model, const char *file, double rider_offset);
 
 #endif

@@ -43,7 +43,8 @@ static double derivative(real value) {
 // Rows (phi'', kappa''), columns of all variables, and the gradient of the energy.
 static void gradients(double J[2][VARIABLES], double E[VARIABLES], const bike_model *model,
                       const perturbed *at) {
-  kernel_model m = complex_model(model);
+  kernel_model m;
+  kernel_model_of(&m, model);
   for (int j = 0; j < VARIABLES; j++) {
     instant now;
     load in = solve_perturbed(&now, &m, *at, j);
@@ -84,9 +85,9 @@ int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *
 // Lateral places and products of inertia are nothing but rounding.
 static bool mirror_symmetric(const bike_model *m) {
   const double rounding = 1e-14; // some tens of roundings of the sums over parts
-  const bike_body *body[] = {&m->rear, &m->front};
+  const bike_body *lumps[] = {&m->rear, &m->front};
   for (int i = 0; i < 2; i++) {
-    const double *c = body[i]->centre, *J = body[i]->inertia;
+    const double *c = lumps[i]->centre, *J = lumps[i]->inertia;
     if (fabs(c[0]) > rounding * (fabs(c[1]) + fabs(c[2]))) return false;
     if (fabs(J[3]) + fabs(J[4]) > rounding * (J[0] + J[1] + J[2])) return false;
   }
@@ -126,7 +127,9 @@ int bike_linearize_upright(bike_upright_matrices *out, const bike_model *model) 
   const int angles[2] = {KAPPA, PHI}, speeds[2] = {KAPPA_RATE, PHI_RATE};
   bike_upright_matrices m = {.M = {mass[0], mass[1], mass[3], mass[4]}};
   // K0 without speed at unit gravity, C1 and K2 at unit speed without gravity: no differences
-  kernel_model heavy = complex_model(model), weightless = heavy;
+  kernel_model heavy, weightless;
+  kernel_model_of(&heavy, model);
+  kernel_model_of(&weightless, model);
   heavy.steer_damping = weightless.steer_damping = 0;
   heavy.gravity = 1;
   weightless.gravity = 0;

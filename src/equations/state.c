@@ -102,7 +102,8 @@ int bike_rates_of(bike_rates *out, const bike_model *model, const bike_state *st
                       .rear_angle = rear_hinge(&now),
                       .front_angle = front_hinge(&now),
                       .power = power_of(&now, model, &in)};
-  return BIKE_OK;
+  bool finite = isfinite(out->yaw + out->rear_angle + out->front_angle + out->power);
+  return finite ? BIKE_OK : BIKE_ERROR_NOT_FINITE;
 }
 
 int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
@@ -147,6 +148,20 @@ static void put_rates(bike_snapshot *out, const instant *now) {
   out->front_wheel_acceleration = alpha_f - (now->rest.spin_f + applied(now->forms.spin_f, a));
 }
 
+static void put_force(double out[3], vec force) {
+  out[0] = force.x;
+  out[1] = force.y;
+  out[2] = force.z;
+}
+
+// Large but finite arguments may overflow in products that the accelerations do not hold.
+static bool finite_snapshot(const bike_snapshot *s) {
+  double sum = s->kinetic + s->potential + s->power + s->yaw_acceleration + s->pitch_acceleration +
+               s->rear_wheel_acceleration + s->front_wheel_acceleration + s->front_speed;
+  for (int i = 0; i < 3; i++) sum += s->rear_force[i] + s->front_force[i];
+  return isfinite(sum);
+}
+
 int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state *state,
                   const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
@@ -155,18 +170,17 @@ int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state 
   int code = solve_state(&now, model, state, input);
   if (code) return code;
   load in = load_of(input);
-  put_geometry(out, &now, model);
-  put_rates(out, &now);
+  bike_snapshot is;
+  put_geometry(&is, &now, model);
+  put_rates(&is, &now);
   energy e = energy_of(&now, model, &in);
-  out->kinetic = e.kinetic;
-  out->potential = e.potential;
-  out->power = power_of(&now, model, &in);
+  is.kinetic = e.kinetic;
+  is.potential = e.potential;
+  is.power = power_of(&now, model, &in);
   ground forces = ground_forces(&now, model, &in);
-  out->rear_force[0] = forces.rear.x;
-  out->rear_force[1] = forces.rear.y;
-  out->rear_force[2] = forces.rear.z;
-  out->front_force[0] = forces.front.x;
-  out->front_force[1] = forces.front.y;
-  out->front_force[2] = forces.front.z;
+  put_force(is.rear_force, forces.rear);
+  put_force(is.front_force, forces.front);
+  if (!finite_snapshot(&is)) return BIKE_ERROR_NOT_FINITE;
+  *out = is;
   return BIKE_OK;
 }

@@ -13,9 +13,13 @@
 enum { LONGEST_NUMBER = 127 };
 
 // glibc returns its static "C" locale here: nothing to free, nothing that fails.
-static locale_t c_locale(void) { return newlocale(LC_ALL_MASK, "C", (locale_t)0); }
+static locale_t c_locale(void) {
+  return newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
 
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 static const char *skip_digits(const char *text, const char *end) {
   while (text < end && is_digit(*text)) ++text;

@@ -19,7 +19,9 @@ enum {
   DESCRIPTOR_PATH_SIZE = 64 // "/proc/self/fd/" and an int
 };
 
-static const char *shown(const bike_output *out) { return out->target ? out->target : "output"; }
+static const char *shown(const bike_output *out) {
+  return out->target ? out->target : "output";
+}
 
 static int fail(const char *path, int number, bike_file_error *error) {
   return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));

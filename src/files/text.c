@@ -28,15 +28,45 @@ static bool is_control(char c) {
   return ((unsigned char)c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
 }
 
-// The 1-based line of the first control character of the bytes from `from` on, or 0.
+// The 1-based line of a byte.
+static int line_at(const bike_text *text, size_t at) {
+  int line = 1;
+  for (size_t k = 0; k < at; ++k) line += text->data[k] == '\n';
+  return line;
+}
+
+// The line of the first control character of the bytes from `from` on, or 0.
 static int control_line(const bike_text *text, size_t from) {
-  for (size_t i = from; i < text->size; ++i) {
-    if (!is_control(text->data[i])) continue;
-    int line = 1;
-    for (size_t k = 0; k < i; ++k) line += text->data[k] == '\n';
-    return line;
-  }
+  for (size_t i = from; i < text->size; ++i)
+    if (is_control(text->data[i])) return line_at(text, i);
   return 0;
+}
+
+// Bytes of the UTF-8 character at `at`, or 0 where there is none. Overlong forms and surrogates
+// pass: they do no harm here.
+static size_t character_size(const bike_text *text, size_t at) {
+  const unsigned char first = (unsigned char)text->data[at];
+  const size_t size = first < 0x80   ? 1
+                      : first < 0xc2 ? 0
+                      : first < 0xe0 ? 2
+                      : first < 0xf0 ? 3
+                      : first < 0xf5 ? 4
+                                     : 0;
+  if (size > text->size - at) return 0;
+  for (size_t k = 1; k < size; ++k)
+    if (((unsigned char)text->data[at + k] & 0xc0) != 0x80) return 0;
+  return size;
+}
+
+// libfyaml reads invalid UTF-8 as an empty value and goes on: it must not come that far.
+static int check_utf8(const bike_text *text, const char *path, bike_file_error *error) {
+  for (size_t at = 0, size; at < text->size; at += size) {
+    size = character_size(text, at);
+    if (!size)
+      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line_at(text, at), NULL,
+                             "this is not UTF-8 text");
+  }
+  return BIKE_OK;
 }
 
 // Appends the stream's bytes, stopping at the first piece that is not text.
@@ -87,8 +117,11 @@ int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_err
     code = read_stream(out, stream, path, limit, error);
   }
   fclose(stream);
-  if (code) bike_text_free(out);
-  else drop_byte_order_mark(out);
+  if (!code) code = check_utf8(out, path, error);
+  if (code)
+    bike_text_free(out);
+  else
+    drop_byte_order_mark(out);
   return code;
 }
 

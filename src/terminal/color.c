@@ -17,7 +17,7 @@ bool term_has_color(FILE *stream) {
 
 const char *term_style_begin(FILE *stream, term_style style) {
   static const char *const sequence[TERM_STYLE_COUNT] = {
-      [TERM_PLAIN] = "",          [TERM_BOLD] = "\033[1m",   [TERM_DIM] = "\033[2m",
+      [TERM_PLAIN] = "",        [TERM_BOLD] = "\033[1m",   [TERM_DIM] = "\033[2m",
       [TERM_GOOD] = "\033[32m", [TERM_BAD] = "\033[1;31m",
   };
   return term_has_color(stream) ? sequence[style] : "";

@@ -30,6 +30,7 @@ static error_t parse_wrapper(int key, char *text, struct argp_state *state) {
   case 'h':
     fputs(wrapped->example, stdout);
     putchar('\n');
+    setenv("ARGP_HELP_FMT", "no-dup-args-note", 0); // a footnote that says nothing here
     argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     return 0;
   case KEY_VERSION:
@@ -47,8 +48,7 @@ void term_parse(const struct argp *argp, const char *example, int argc, char **a
       {0},
   };
   const struct argp_child children[] = {{argp, 0, NULL, 0}, {0}};
-  const struct argp root = {
-      .options = options, .parser = parse_wrapper, .children = children};
+  const struct argp root = {.options = options, .parser = parse_wrapper, .children = children};
   wrapper wrapped = {example, input};
   argp_err_exit_status = TERM_USAGE;
   if (argp_parse(&root, argc, argv, ARGP_NO_HELP, NULL, &wrapped) != 0) exit(TERM_USAGE);

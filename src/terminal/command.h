@@ -43,7 +43,7 @@ void term_take_argument(const char **out, const char *text, const char *what);
 // Its input is a term_show.
 typedef struct term_show {
   bool json;
-  term_convention convention;
+  bike_convention convention;
 } term_show;
 
 extern const struct argp term_show_argp;

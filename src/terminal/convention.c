@@ -3,26 +3,26 @@
 
 #include <string.h>
 
-static const char *const names[] = {[TERM_ISO] = "iso", [TERM_SAE] = "sae"};
+static const char *const names[] = {[BIKE_CONVENTION_ISO] = "iso", [BIKE_CONVENTION_SAE] = "sae"};
 
-bool term_parse_convention(term_convention *out, const char *text) {
-  for (int i = TERM_ISO; i <= TERM_SAE; i++) {
+bool term_parse_convention(bike_convention *out, const char *text) {
+  for (int i = BIKE_CONVENTION_ISO; i <= BIKE_CONVENTION_SAE; i++) {
     if (strcmp(text, names[i]) == 0) {
-      *out = (term_convention)i;
+      *out = (bike_convention)i;
       return true;
     }
   }
   return false;
 }
 
-const char *term_convention_name(term_convention convention) {
+const char *term_convention_name(bike_convention convention) {
   return names[convention];
 }
 
-double term_left_sign(term_convention convention) {
-  return convention == TERM_SAE ? -1 : 1;
+double term_left_sign(bike_convention convention) {
+  return convention == BIKE_CONVENTION_SAE ? -1 : 1;
 }
 
-const char *term_lateral_name(term_convention convention) {
-  return convention == TERM_SAE ? "right" : "left";
+const char *term_lateral_name(bike_convention convention) {
+  return convention == BIKE_CONVENTION_SAE ? "right" : "left";
 }

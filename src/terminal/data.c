@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-__attribute__((format(printf, 2, 3))) static bool join(char out[TERM_PATH_SIZE],
-                                                       const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static bool join(char out[TERM_PATH_SIZE], const char *format,
+                                                       ...) {
   va_list arguments;
   va_start(arguments, format);
   int length = vsnprintf(out, TERM_PATH_SIZE, format, arguments);

@@ -4,7 +4,7 @@
 #include <math.h>
 
 json_t *term_json_number(double value) {
-  return isfinite(value) ? json_real(value) : json_null();
+  return isfinite(value) ? json_real(value + 0.0) : json_null(); // "0.0" also of a negative zero
 }
 
 json_t *term_json_numbers(const double *values, size_t count) {
@@ -32,5 +32,5 @@ bool term_json_write(json_t *document, FILE *stream) {
   bool written = json_dumpf(document, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
                  fputc('\n', stream) != EOF;
   json_decref(document);
-  return written;
+  return written || ferror(stream);
 }

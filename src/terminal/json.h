@@ -21,7 +21,8 @@ json_t *term_json_matrix(const double *values, size_t rows, size_t columns);
 json_t *term_json_texts(const char *const *texts, size_t count);
 
 // Writes the document with 17 digits, keys in the order of insertion, a line feed at the end, and
-// releases it. False when it could not be written or is NULL (out of memory).
+// releases it. False when memory is short (the document is NULL, or could not be printed); what
+// goes wrong with the stream itself is found by who closes it.
 bool term_json_write(json_t *document, FILE *stream);
 
 #endif

@@ -12,9 +12,11 @@
 
 static const char *program_name = "bicycle";
 
-// Runs at exit: a result that was lost on its way must not look like a success. Streams are not
-// flushed again after it, hence _exit.
-static void check_stdout(void) {
+// Runs at exit: a result that was lost on its way must not look like a success; a failure has said
+// its line already. Streams are not flushed again after it, hence _exit.
+static void check_stdout(int status, void *unused) {
+  (void)unused;
+  if (status != TERM_DONE) return;
   errno = 0;
   bool lost = ferror(stdout) != 0;
   if (fflush(stdout) != 0 || lost) {
@@ -26,7 +28,7 @@ static void check_stdout(void) {
 void term_begin(const char *program) {
   static bool begun = false;
   program_name = program;
-  if (!begun) atexit(check_stdout);
+  if (!begun) on_exit(check_stdout, NULL);
   begun = true;
 }
 

@@ -18,8 +18,7 @@ const char *term_program(void);
 void term_message(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // The same, and returns `code`: `return term_fail(TERM_USAGE, "...")`.
-term_exit term_fail(term_exit code, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+term_exit term_fail(term_exit code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // How a program ends on an error of the library: TERM_USAGE where the input is to blame,
 // TERM_INVALID where the computation failed, TERM_DONE for BIKE_OK.

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terminal/number.h"
 
+#include "files/number.h"
+
 #include <errno.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Longer than any double printed with %.17g, with room for people who write all their zeros.
+// Three numbers of a range, with room for people who write all their zeros.
 enum { TEXT_SIZE = 128 };
 
-// strtod takes blanks, names and hexadecimal; these characters leave it decimal numbers only.
-static bool is_decimal(const char *text) {
-  return *text && text[strspn(text, "+-.0123456789eE")] == '\0';
-}
-
 bool term_parse_number(double *out, const char *text) {
-  if (!is_decimal(text)) return false;
-  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-  if (!plain) return false;
-  char *end;
-  double value = strtod_l(text, &end, plain);
-  freelocale(plain);
-  if (end == text || *end || !isfinite(value)) return false;
-  *out = value;
-  return true;
+  return bike_number_parse(out, text, strlen(text)) == NULL;
 }
 
 bool term_parse_angle(double *out, const char *text) {
@@ -34,12 +22,8 @@ bool term_parse_angle(double *out, const char *text) {
   size_t tail = sizeof suffix - 1;
   if (length <= tail || strcmp(text + length - tail, suffix) != 0)
     return term_parse_number(out, text);
-  char number[TEXT_SIZE];
-  if (length - tail >= sizeof number) return false;
-  memcpy(number, text, length - tail);
-  number[length - tail] = '\0';
   double degrees;
-  if (!term_parse_number(&degrees, number)) return false;
+  if (bike_number_parse(&degrees, text, length - tail) != NULL) return false;
   *out = degrees * (M_PI / 180);
   return true;
 }

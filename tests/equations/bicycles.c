@@ -7,7 +7,8 @@
 
 // |lean| <= 45 deg, |steer| <= 60 deg, rates to 2 rad/s, 1 to 10 m/s; the penny-farthing's geometry
 // ends earlier.
-#define MODERN {45 * DEGREE, 60 * DEGREE, 2, 1, 10}
+#define MODERN                                                                                     \
+  { 45 * DEGREE, 60 * DEGREE, 2, 1, 10 }
 const shipped_bicycle shipped_bicycles[SHIPPED_COUNT] = {
     {"roadster", MODERN},         {"roadster_riderless", MODERN},
     {"benchmark", MODERN},        {"recumbent", MODERN},
@@ -29,8 +30,7 @@ static void random_tensor(random_source *source, double size, bool symmetric, do
   for (int i = 0; i < 9; i++) b[i / 3][i % 3] = random_between(source, -1, 1) * sqrt(size / 3);
   if (symmetric) b[0][1] = b[1][0] = b[1][2] = b[2][1] = 0;
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++)
-      t[i][j] = b[i][0] * b[j][0] + b[i][1] * b[j][1] + b[i][2] * b[j][2];
+    for (int j = 0; j < 3; j++) t[i][j] = b[i][0] * b[j][0] + b[i][1] * b[j][1] + b[i][2] * b[j][2];
   const double packed[6] = {t[0][0], t[1][1], t[2][2], t[0][1], t[0][2], t[1][2]};
   for (int i = 0; i < 6; i++) out[i] = packed[i];
 }

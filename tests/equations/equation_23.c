@@ -12,6 +12,13 @@ static void count(tally *t, vec term) {
   t->lengths += vec_norm(term);
 }
 
+// A term direction (a . b), whose size is that before a and b cancel within the product: at nearly
+// straight riding e_R^f . p' is a small difference of large numbers.
+static void count_product(tally *t, vec direction, vec a, vec b) {
+  t->sum = vec_add(t->sum, vec_scale(direction, vec_dot(a, b)));
+  t->lengths += vec_norm(direction) * vec_norm(a) * vec_norm(b);
+}
+
 real equation_23(const bike_bicycle *bicycle, const bike_state *state, const bike_input *input,
                  const paper_motion *m, int weight_sign) {
   const vec e_R = {{0, 1, 0}}, e_A = {{0, 0, 1}};
@@ -31,14 +38,14 @@ real equation_23(const bike_bicycle *bicycle, const bike_state *state, const bik
     force = vec_scale(force, q->mass);
     count(&t, vec_scale(q->torque, s));
     count(&t, vec_scale(vec_cross(vec_sub(q->place, m->T_f), force), s));
-    count(&t, vec_scale(K_A, q->mass * vec_dot(m->e_R_front, q->acceleration)));
+    count_product(&t, vec_scale(K_A, q->mass), m->e_R_front, q->acceleration);
     if (!q->front) {
-      count(&t, vec_scale(K_1, vec_dot(vec_cross(m->e_S, q->place), force)));
-      count(&t, vec_scale(K_1, vec_dot(m->e_S, q->torque)));
+      count_product(&t, K_1, vec_cross(m->e_S, q->place), force);
+      count_product(&t, K_1, m->e_S, q->torque);
     }
     if (assembly == BIKE_REAR_WHEEL) count(&t, vec_scale(K_2, q->torque.c[0] / g->R_r));
     if (assembly == BIKE_FRONT_WHEEL)
-      count(&t, vec_scale(K_A, -vec_dot(m->e_N_front, q->torque) / g->R_f));
+      count_product(&t, vec_scale(K_A, -1 / (real)g->R_f), m->e_N_front, q->torque);
   }
   real M_S = input->steer_torque - (real)bicycle->steer_damping * state->steer_rate;
   count(&t, vec_scale(K_1, M_S));

@@ -56,7 +56,7 @@ static void without_ground(real out[UNKNOWNS], const scene *s, const bike_bicycl
     out[i] = force.c[i];      // (18)
     out[3 + i] = moment.c[i]; // (19)
   }
-  wheel_torques(s, b, &out[6], &out[7]);                    // (20), (21)
+  wheel_torques(s, b, &out[6], &out[7]);                     // (20), (21)
   out[8] = vec_dot(s->motion->e_S, front) - s->steer_moment; // (22)
 }
 
@@ -101,13 +101,12 @@ static bool eliminate(real a[UNKNOWNS][UNKNOWNS + 1]) {
 }
 
 // The equations are affine in the unknowns: their columns are differences at unit accelerations.
-static bool assemble(real a[UNKNOWNS][UNKNOWNS + 1], const bike_bicycle *b,
-                     const bike_state *state, const bike_input *input) {
+static void assemble(real a[UNKNOWNS][UNKNOWNS + 1], const bike_bicycle *b,
+                     const paper_roots *roots, const bike_state *state, const bike_input *input) {
   const paper_acceleration trial[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   real column[UNKNOWNS], base[UNKNOWNS];
   for (int t = 0; t < 4; t++) {
-    paper_motion m;
-    if (!paper_motion_of(&m, b, state, input, trial[t])) return false;
+    paper_motion m = paper_motion_of(b, roots, state, input, trial[t]);
     scene s = scene_of(b, state, input, &m);
     without_ground(t == 0 ? base : column, &s, b);
     for (int i = 0; i < UNKNOWNS && t > 0; i++) a[i][t - 1] = column[i] - base[i];
@@ -118,17 +117,20 @@ static bool assemble(real a[UNKNOWNS][UNKNOWNS + 1], const bike_bicycle *b,
     }
   }
   for (int i = 0; i < UNKNOWNS; i++) a[i][UNKNOWNS] = -base[i];
-  return true;
 }
 
 bool nine_solve(nine_solution *out, const bike_bicycle *bicycle, const bike_state *state,
                 const bike_input *input) {
   real a[UNKNOWNS][UNKNOWNS + 1];
-  if (!assemble(a, bicycle, state, input) || !eliminate(a)) return false;
+  paper_roots roots;
+  if (!paper_roots_of(&roots, &bicycle->geometry, state)) return false;
+  assemble(a, bicycle, &roots, state, input);
+  if (!eliminate(a)) return false;
   out->acceleration = (paper_acceleration){a[0][9], a[1][9], a[2][9]};
   out->F_r = (vec){{a[3][9], a[4][9], a[5][9]}};
   out->F_f = (vec){{a[6][9], a[7][9], a[8][9]}};
-  return paper_motion_of(&out->motion, bicycle, state, input, out->acceleration);
+  out->motion = paper_motion_of(bicycle, &roots, state, input, out->acceleration);
+  return true;
 }
 
 void nine_level(double out[3], const paper_motion *motion, vec force) {

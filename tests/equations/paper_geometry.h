@@ -12,10 +12,10 @@
 
 // Angles and lengths of the paper's figure 1 with their time derivatives.
 typedef struct paper_pose {
-  jet phi, kappa;       // rad  steer, lean
-  jet beta_r, beta_f;   // rad  (4), (1)
-  jet psi, phi_tilde;   // rad  (2), (3)
-  jet T_f, T_r, Z_0;    // m    (5), (6), (7)
+  jet phi, kappa;     // rad  steer, lean
+  jet beta_r, beta_f; // rad  (4), (1)
+  jet psi, phi_tilde; // rad  (2), (3)
+  jet T_f, T_r, Z_0;  // m    (5), (6), (7)
 } paper_pose;
 
 // Follows the root of (4) from the upright position along the straight line to (phi, kappa); false
@@ -23,7 +23,7 @@ typedef struct paper_pose {
 // equations divide by, as a number near 1 at small angles (lengths over the wheelbase).
 bool paper_root(real *beta_r, real *margin, const bike_geometry *geometry, real phi, real kappa);
 
-// Pose for jets of the two variables; false where (4) has no root connected with upright.
-bool paper_pose_of(paper_pose *out, const bike_geometry *geometry, jet phi, jet kappa);
+// Pose for jets of the two variables, given the root beta_r of (4) at their values.
+paper_pose paper_pose_of(const bike_geometry *geometry, jet phi, jet kappa, real root);
 
 #endif

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paper_motion.h"
+#include <stddef.h>
 
 // What all parts of one bicycle share at one instant, as jets in time.
 typedef struct frames {
-  jetvec omega;             // of the moving basis, (11)
-  jetmat rear, front;       // D of (8)
+  jetvec omega;       // of the moving basis, (11)
+  jetmat rear, front; // D of (8)
   jetvec omega_rear, omega_front;
-  jetvec hub_rear, hub_front; // e_N, e_N^f
+  jetvec hub_rear, hub_front;  // e_N, e_N^f
   jet rear_total, front_total; // rates of the wheels about their hubs, as in (16), (15)
-  jet speed, slide;         // v, v + T_r'
+  jet speed, slide;            // v, v + T_r'
   jetvec T_r;
 } frames;
 
@@ -88,8 +89,8 @@ static jetvec reference_place(const bike_part *part, const bike_input *input,
   jetvec x0 = {{jet_constant(-part->position[1]), jet_constant(c * ahead + s * part->position[2]),
                 jet_constant(-s * ahead + c * part->position[2] - upright->Z_0.v)}};
   if (part->rider)
-    x0.c[N] = jet_add(x0.c[N], (jet){input->rider_offset, input->rider_velocity,
-                                     input->rider_acceleration});
+    x0.c[N] = jet_add(x0.c[N],
+                      (jet){input->rider_offset, input->rider_velocity, input->rider_acceleration});
   return x0;
 }
 
@@ -98,8 +99,7 @@ static jetvec reference_inertia(const double I[6], real tilt, jetvec w) {
   jetmat tilted = jetmat_rotation(N, jet_constant(tilt));
   jetvec upright = jetmat_apply(&tilted, w); // (right, forward, up)
   // right = -left, so that products of inertia with y change sign
-  real tensor[3][3] = {
-      {I[1], -I[3], -I[5]}, {-I[3], I[0], I[4]}, {-I[5], I[4], I[2]}};
+  real tensor[3][3] = {{I[1], -I[3], -I[5]}, {-I[3], I[0], I[4]}, {-I[5], I[4], I[2]}};
   jetmat inertia;
   for (int i = 0; i < 9; i++) inertia.c[i / 3][i % 3] = jet_constant(tensor[i / 3][i % 3]);
   return jetmat_apply_transposed(&tilted, jetmat_apply(&inertia, upright));
@@ -112,8 +112,7 @@ static void move(paper_part *q, const frames *f, const jetmat *D, jetvec x1) {
   arm.c[R] = jet_sub(arm.c[R], f->T_r.c[R]); // x - T_r
   jetvec slide = along(R, f->slide);
   // (9) corrected: x' = D' x1 + D x1' + A (x - T_r) + (v + T_r') e_R
-  jetvec velocity =
-      jetvec_add(jetvec_add(jetvec_rate(turned), jetvec_cross(f->omega, arm)), slide);
+  jetvec velocity = jetvec_add(jetvec_add(jetvec_rate(turned), jetvec_cross(f->omega, arm)), slide);
   vec w = jetvec_value(f->omega), dw = jetvec_first(f->omega), x = jetvec_value(arm);
   q->place = jetvec_value(turned);
   q->velocity = jetvec_value(velocity);
@@ -144,15 +143,19 @@ static void spin(paper_part *q, const frames *f, const bike_part *part, real til
   q->torque = vec_add(jetvec_first(L), vec_cross(jetvec_value(f->omega), q->angular_momentum));
 }
 
-bool paper_motion_of(paper_motion *out, const bike_bicycle *bicycle, const bike_state *state,
-                     const bike_input *input, paper_acceleration acceleration) {
+bool paper_roots_of(paper_roots *out, const bike_geometry *geometry, const bike_state *state) {
+  return paper_root(&out->upright, NULL, geometry, 0, 0) &&
+         paper_root(&out->here, NULL, geometry, state->steer, state->lean);
+}
+
+paper_motion paper_motion_of(const bike_bicycle *bicycle, const paper_roots *roots,
+                             const bike_state *state, const bike_input *input,
+                             paper_acceleration acceleration) {
   const bike_geometry *g = &bicycle->geometry;
   paper_motion m = {.part_count = bicycle->part_count};
-  paper_pose upright;
-  if (!paper_pose_of(&upright, g, jet_constant(0), jet_constant(0))) return false;
-  if (!paper_pose_of(&m.pose, g, (jet){state->steer, state->steer_rate, acceleration.phi},
-                     (jet){state->lean, state->lean_rate, acceleration.kappa}))
-    return false;
+  paper_pose upright = paper_pose_of(g, jet_constant(0), jet_constant(0), roots->upright);
+  m.pose = paper_pose_of(g, (jet){state->steer, state->steer_rate, acceleration.phi},
+                         (jet){state->lean, state->lean_rate, acceleration.kappa}, roots->here);
   frames f;
   roll(&m, &f, (jet){state->speed, acceleration.v, NAN});
   turn(&m, &f, g);
@@ -168,8 +171,7 @@ bool paper_motion_of(paper_motion *out, const bike_bicycle *bicycle, const bike_
     move(q, &f, q->front ? &f.front : &f.rear, x1);
     spin(q, &f, part, m.tilt);
   }
-  *out = m;
-  return true;
+  return m;
 }
 
 real paper_kinetic(const paper_motion *m) {

@@ -144,7 +144,8 @@ static inline void accelerations_at_rest(kane *k, const position *g, const kerne
   hub_bias(k, g, L->R_r, q, b);
   // rear centre: hub + alpha x c + omega x (omega x c) + 2 omega x drift + drift'
   k->centre_r0 = add(k->hub_acceleration0, carried(k->alpha_r0, k->omega_r, k->rear.centre));
-  k->centre_r0 = add(k->centre_r0, scaled(2.0, cross(k->omega_r, k->rear.drift)));
+  vec swept = cross(k->omega_r, k->rear.drift);
+  k->centre_r0 = add(k->centre_r0, add(swept, swept));
   k->centre_r0.x = k->centre_r0.x + share * in->w2;
   // front: the same about the foot point, in the turned axes, which themselves turn with phi'
   vec foot = add(k->hub_acceleration0, carried(k->alpha_r0, k->omega_r, foot_arm(L)));
@@ -176,13 +177,15 @@ static inline void add_mass(real M[6], const body *b, const partials *p) {
   }
 }
 
-// f_i -= m (a_0 + g e_z).V_i + T_0.W_i + Theta spin'_0 s_i, T_0 the rate of angular momentum
-// less the spin-up of the wheel.
-static inline void subtract_inertia(real f[3], const body *b, const partials *p, vec weightless,
-                                    vec torque, real spin_up) {
-  vec force = scaled(b->mass, weightless);
+// f_i -= m a_0.V_i + T_0.W_i + Theta spin'_0 s_i, T_0 the rate of angular momentum less the spin-up
+// of the wheel; and the weight m g e_z.V_i where heights change, which is with phi' and kappa' only:
+// so straight riding feels no rounding of a force that is not there.
+static inline void subtract_inertia(real f[3], const body *b, const partials *p, vec centre0,
+                                    vec weight, vec torque, real spin_up) {
+  vec force = scaled(b->mass, centre0);
   for (int i = 0; i < 3; i++)
     f[i] -= dot(force, p->V[i]) + dot(torque, p->W[i]) + b->spin_inertia * spin_up * p->s[i];
+  for (int i = 0; i < 2; i++) f[i] -= dot(weight, p->V[i]);
 }
 
 // Rate of angular momentum at u' = 0, the rear one with the change of its tensor and its sway:
@@ -215,12 +218,12 @@ static inline void equations_of_motion(kane *k, const kernel_model *m, const rat
   k->f[0] = in->steer_torque - m->steer_damping * q->u.phi;
   k->f[1] = in->roll_torque;
   k->f[2] = nought;
-  subtract_inertia(k->f, &k->rear, &k->rear_partials,
-                   add(k->centre_r0, scaled(m->gravity, k->up_rear)),
+  subtract_inertia(k->f, &k->rear, &k->rear_partials, k->centre_r0,
+                   scaled(m->gravity * k->rear.mass, k->up_rear),
                    rear_torque0(k, m, in, q->spin_r), b->spin_r);
-  subtract_inertia(k->f, &k->front, &k->front_partials,
-                   add(k->centre_f0, scaled(m->gravity, k->up_front)),
-                   front_torque0(k, q->spin_f), b->spin_f);
+  subtract_inertia(k->f, &k->front, &k->front_partials, k->centre_f0,
+                   scaled(m->gravity * k->front.mass, k->up_front), front_torque0(k, q->spin_f),
+                   b->spin_f);
 }
 
 // u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry.

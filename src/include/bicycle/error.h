@@ -9,7 +9,7 @@
 #define BIKE_ERRORS(X)                                                                             \
   X(BIKE_OK, "no error")                                                                           \
   X(BIKE_ERROR_ARGUMENT, "an argument is missing or outside its range")                            \
-  X(BIKE_ERROR_NOT_FINITE, "an argument is not a finite number")                                   \
+  X(BIKE_ERROR_NOT_FINITE, "a number is not finite, or too large to compute with")                   \
   X(BIKE_ERROR_MEMORY, "out of memory")                                                            \
   X(BIKE_ERROR_PARAMETER, "a parameter of the bicycle is outside its range")                       \
   X(BIKE_ERROR_IMPOSSIBLE, "the two wheels of this bicycle cannot stand on the ground")            \

@@ -26,20 +26,31 @@ typedef struct bike_file {
   bike_meijaard meijaard; //
 } bike_file;
 
-// "w", "c", "lam", "g", "rR", "mR", "IRxx", "IRyy", "xB", ... "IFyy".
+// "w", "c", "lam", "g", "rR", "mR", "IRxx", "IRyy", "xB", "zB", "mB", "IBxx", "IByy", "IBzz",
+// "IBxz", "xH", "zH", "mH", "IHxx", "IHyy", "IHzz", "IHxz", "rF", "mF", "IFxx", "IFyy";
+// NULL-terminated.
 BIKE_API const char *const *bike_meijaard_symbols(void);
 
-// Reads a file. BIKE_ERROR_FILE, BIKE_ERROR_SYNTAX, BIKE_ERROR_PARAMETER, BIKE_ERROR_IMPOSSIBLE or
-// BIKE_ERROR_MEMORY with one line in `error`; `out` is untouched then.
+// Reads a file of any form. BIKE_ERROR_FILE, BIKE_ERROR_SYNTAX, BIKE_ERROR_PARAMETER,
+// BIKE_ERROR_IMPOSSIBLE or BIKE_ERROR_MEMORY with one line in `error` (may be NULL, here and
+// below); `out` is untouched then. A bicycle without a name of its own takes that of its file.
 BIKE_API int bike_file_read(bike_file *out, const char *path, bike_file_error *error);
 
-// Writes the bicycle as `parameterization: Meijaard2007` with a `rider:` block where there is a
-// rider, so that BicycleParameters loads it back: whole or not at all. Rigid parts are lumped, so
-// reading it back gives the same model, not the same list of parts.
+// Writes the bicycle as `parameterization: Meijaard2007`, whole or not at all, so that
+// BicycleParameters loads it back. Rigid parts are lumped, so reading it back gives the same model,
+// not the same list of parts: `rider: true` and a block `rider_share` (the rider's mass and place,
+// which are also in B) keep the rider, `steer_damping` the damper; the uncertainty of a file is not
+// written. `path` NULL or "-" is the standard output. BIKE_ERROR_PARAMETER for a bicycle that the
+// form cannot hold: products of inertia Ixy or Iyz, a frame or wheel without mass.
 BIKE_API int bike_file_write(const bike_bicycle *bicycle, const char *path, bike_file_error *error);
 
-// Literature parameters of a bicycle, and back (a rear frame "B" with the rider in it, a handlebar
-// assembly "H", wheels "R", "F"; lateral positions and products of inertia are lost).
+// The bicycle of literature parameters: rear frame "B" with the rider in it, handlebar assembly
+// "H", wheels "R" and "F", no damping. BIKE_ERROR_NOT_FINITE, or BIKE_ERROR_PARAMETER where lam is
+// not within +-pi/2; the other rules are bike_check's.
 BIKE_API int bike_from_meijaard(bike_bicycle *out, const double value[BIKE_MEIJAARD_COUNT]);
+
+// And back, with the rider in B; lateral positions, the damper and which share of B is the rider
+// are not in these numbers. Errors: those of bike_check, and BIKE_ERROR_PARAMETER as above.
+BIKE_API int bike_to_meijaard(double value[BIKE_MEIJAARD_COUNT], const bike_bicycle *bicycle);
 
 #endif

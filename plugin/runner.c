@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Making a runner, and the questions one may ask it between rides.
+#include "runner_guard.h"
+#include "runner_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Takes the model, whatever comes.
+static runner *create(mjModel *model, double rider_offset, runner_status *status,
+                      mjcf_error *error) {
+  runner *r = (runner *)calloc(1, sizeof *r);
+  if (!r) {
+    mj_deleteModel(model);
+    *status = RUNNER_MEMORY;
+    mjcf_fail(error, "%s", runner_status_string(*status));
+    return NULL;
+  }
+  r->model = model;
+  r->rider_offset = rider_offset;
+  *status = RUNNER_MODEL;
+  if (!runner_find_map(&r->map, model, error)) {
+    runner_free(r);
+    return NULL;
+  }
+  model->opt.enableflags |= mjENBL_ENERGY;
+  r->ride = mj_makeData(model);
+  r->probe = mj_makeData(model);
+  if (!r->ride || !r->probe) {
+    *status = RUNNER_MEMORY;
+    mjcf_fail(error, "%s", runner_status_string(*status));
+    runner_free(r);
+    return NULL;
+  }
+  runner_install_control();
+  *status = RUNNER_OK;
+  return r;
+}
+
+runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
+                      runner_status *status, mjcf_error *error) {
+  // What nobody sees costs a third of a step: every geom is moved at every stage.
+  mjcf_options plain = *options;
+  plain.visible = false;
+  *status = RUNNER_MODEL;
+  mjModel *model = mjcf_model(bicycle, &plain, NULL, error);
+  return model ? create(model, options->rider_offset, status, error) : NULL;
+}
+
+runner *runner_load(const char *path, runner_status *status, mjcf_error *error) {
+  *status = RUNNER_MODEL;
+  mjModel *model = mjcf_load(path, error);
+  return model ? create(model, 0, status, error) : NULL;
+}
+
+void runner_free(runner *r) {
+  if (!r) return;
+  if (r->ride) mj_deleteData(r->ride);
+  if (r->probe) mj_deleteData(r->probe);
+  mj_deleteModel(r->model);
+  free(r);
+}
+
+mjModel *runner_model(runner *r) {
+  return r->model;
+}
+
+mjData *runner_data(runner *r) {
+  return r->ride;
+}
+
+// An input that does not change.
+static void give_constant(double time, bike_input *out, void *user) {
+  (void)time;
+  *out = *(const bike_input *)user;
+}
+
+runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *state,
+                              const bike_input *input, mjcf_error *error) {
+  runner_status status = runner_place(r, r->probe, state, error);
+  if (status != RUNNER_OK) return status;
+  bike_input copy = input ? *input : (bike_input){.rider_offset = r->rider_offset};
+  bike_input_function *ride_input = r->input;
+  void *ride_user = r->user;
+  r->input = give_constant;
+  r->user = &copy;
+  status = runner_measure_probe(out, r, error);
+  r->input = ride_input;
+  r->user = ride_user;
+  return status;
+}
+
+// After the ride's state was set: as if it never had moved.
+static void begin(runner *r) {
+  r->ride->time = 0;
+  r->work = 0;
+  r->input = NULL;
+  runner_posture posture;
+  runner_read_posture(&posture, r, r->ride);
+  r->yaw = posture.angle[0];
+}
+
+runner_status runner_start(runner *r, const bike_state *state, mjcf_error *error) {
+  runner_status status = runner_place(r, r->ride, state, error);
+  if (status == RUNNER_OK) begin(r);
+  return status;
+}
+
+typedef struct key_start {
+  runner *r;
+  int key;
+} key_start;
+
+static void load_key(void *argument) {
+  key_start *s = (key_start *)argument;
+  mj_resetDataKeyframe(s->r->model, s->r->ride, s->key);
+  mj_kinematics(s->r->model, s->r->ride);
+  mj_comPos(s->r->model, s->r->ride);
+  mj_comVel(s->r->model, s->r->ride);
+}
+
+runner_status runner_start_at_keyframe(runner *r, mjcf_error *error) {
+  key_start s = {r, mj_name2id(r->model, mjOBJ_KEY, "test")};
+  if (s.key < 0) {
+    mjcf_fail(error, "the model has no keyframe 'test' to start from");
+    return RUNNER_MODEL;
+  }
+  guard_report report;
+  guard_call(&report, load_key, &s);
+  double residual = report.failed ? NAN : runner_residual(r, r->ride);
+  if (!(residual <= RUNNER_START_TOLERANCE)) {
+    mjcf_fail(error, "keyframe 'test': the wheels do not stand and roll on the ground (off by %.3g)",
+              residual);
+    return RUNNER_START;
+  }
+  begin(r);
+  return RUNNER_OK;
+}
+
+// What an instant depends on; the warm start is what MuJoCo's contact solver begins with.
+static void copy_state(const runner *r) {
+  const mjModel *m = r->model;
+  r->probe->time = r->ride->time;
+  mju_copy(r->probe->qpos, r->ride->qpos, m->nq);
+  mju_copy(r->probe->qvel, r->ride->qvel, m->nv);
+  mju_copy(r->probe->act, r->ride->act, m->na);
+  mju_copy(r->probe->qacc_warmstart, r->ride->qacc_warmstart, m->nv);
+  memset(r->probe->warning, 0, sizeof r->probe->warning);
+}
+
+runner_status runner_measure(runner_instant *out, runner *r, mjcf_error *error) {
+  copy_state(r);
+  runner_status status = runner_measure_probe(out, r, error);
+  if (status != RUNNER_OK) return status;
+  // A free joint's yaw comes back from its rotation matrix within half a turn.
+  double turn = 2 * mjPI;
+  out->yaw += turn * round((r->yaw - out->yaw) / turn);
+  r->yaw = out->yaw;
+  return RUNNER_OK;
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of the runner share; not for users.
+#ifndef RUNNER_INTERNAL_H
+#define RUNNER_INTERNAL_H
+
+#include "runner.h"
+
+enum { RUNNER_REAR, RUNNER_FRONT, RUNNER_WHEELS };
+
+typedef struct runner_hinge {
+  int joint; // id
+  int qpos;  // address
+  int dof;   // address
+} runner_hinge;
+
+typedef struct runner_wheel {
+  int body;           // id
+  runner_hinge hinge; // axle
+  double radius;      // m
+} runner_wheel;
+
+// Where in the mjModel the bicycle is; nothing else of the model is known.
+typedef struct runner_map {
+  int frame;                         // id of the body rear_frame
+  bool free_root;                    // one free joint; otherwise slides x, y, z, hinges yaw, roll, pitch
+  int root_qpos, root_dof;           // their first addresses
+  runner_hinge steer;                //
+  runner_wheel wheel[RUNNER_WHEELS]; //
+  bool exact;                        // rolling_discs; otherwise contacts
+} runner_map;
+
+struct runner {
+  mjModel *model;
+  mjData *ride;        // what mj_step advances
+  mjData *probe;       // where instants are evaluated: measuring leaves no trace in a ride
+  runner_map map;      //
+  double rider_offset; // m   that the model was built with
+  double yaw;          // rad of the instant before: yaw is continuous
+  // What the control callback reads and writes during a step.
+  bike_input_function *input; // NULL: hands off
+  void *user;                 // of the input
+  int stages;                 //     calls since the step began
+  double work;                // J   of torques and damper since the start
+  double probe_power;         // W   of the same at the probe
+  runner_status refused;      //     the input cannot be applied
+};
+
+//---------------------------------- the model (runner_map.c) --------------------------------------
+
+// Finds the bicycle's bodies, joints and radii; false with a text naming what is missing or wrong.
+bool runner_find_map(runner_map *map, const mjModel *model, mjcf_error *error);
+
+//---------------------------------- the input (runner_control.c) ----------------------------------
+
+// Puts the runner's control callback and, after it, exact rolling into MuJoCo. Again: no effect.
+void runner_install_control(void);
+
+// From here on the control callback of this thread serves this runner (NULL: none). Returns the one
+// it served before.
+runner *runner_activate(runner *r);
+
+//---------------------------------- attitude (runner_posture.c) -----------------------------------
+
+// Rear frame in yaw, roll, pitch and their rates, as the hinge root has them: what a free joint says
+// is brought to the same terms. Accelerations are filled if d->qacc is of this moment.
+typedef struct runner_posture {
+  double angle[3];        // rad      yaw, roll, pitch
+  double rate[3];         // rad/s
+  double acceleration[3]; // rad/s^2
+} runner_posture;
+
+void runner_read_posture(runner_posture *out, const runner *r, const mjData *d);
+
+// Sets qpos and qvel of the rear frame: hub displaced by `place` from its place at qpos0.
+void runner_write_posture(const runner *r, mjData *d, const double place[3], const double angle[3]);
+void runner_write_rates(const runner *r, mjData *d, const double velocity[3], const double rate[3]);
+
+//---------------------------------- state (runner_start.c) ----------------------------------------
+
+// Places d (time 0) at a state, consistent with both discs on the ground and rolling.
+runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_error *error);
+
+// Largest height error (m) and contact velocity (m/s) of the discs at d.
+double runner_residual(const runner *r, const mjData *d);
+
+//---------------------------------- discs and instants (runner_measure.c) -------------------------
+
+typedef struct runner_disc {
+  double point[3];    // m    lowest point
+  double height;      // m    above the ground
+  double velocity[3]; // m/s  of the wheel's material there
+} runner_disc;
+
+// Needs positions and mj_comVel of the moment.
+void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wheel);
+
+// mj_forward on the probe, and all that can be read there.
+runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *error);
+
+// The checks after every call that advances or evaluates (runner_check.c): errors and warnings of
+// MuJoCo, callback, finite numbers.
+struct guard_report;
+runner_status runner_check(const runner *r, const mjData *d, const struct guard_report *report,
+                           int stages, mjcf_error *error);
+
+#endif

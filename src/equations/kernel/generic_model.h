@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// bike_model with members of type `real`, for number types other than double. The including file
+// also defines real real_of(double).
+#ifndef BICYCLE_KERNEL_GENERIC_MODEL_H
+#define BICYCLE_KERNEL_GENERIC_MODEL_H
+
+#include <bicycle/model.h>
+
+typedef struct kernel_geometry {
+  real L_r, L_f, L_s, R_r, R_f;
+} kernel_geometry;
+
+typedef struct kernel_body {
+  real mass;
+  real centre[3];
+  real inertia[6];
+  real spin_inertia;
+} kernel_body;
+
+typedef struct kernel_model {
+  kernel_geometry geometry;
+  real gravity, steer_damping;
+  kernel_body rear, front;
+  real rider_mass;
+  real rider_arm[3];
+} kernel_model;
+
+static inline void kernel_body_of(kernel_body *out, const bike_body *b) {
+  out->mass = real_of(b->mass);
+  for (int i = 0; i < 3; i++) out->centre[i] = real_of(b->centre[i]);
+  for (int i = 0; i < 6; i++) out->inertia[i] = real_of(b->inertia[i]);
+  out->spin_inertia = real_of(b->spin_inertia);
+}
+
+static inline void kernel_model_of(kernel_model *out, const bike_model *m) {
+  const bike_geometry *g = &m->geometry;
+  out->geometry = (kernel_geometry){real_of(g->L_r), real_of(g->L_f), real_of(g->L_s),
+                                    real_of(g->R_r), real_of(g->R_f)};
+  out->gravity = real_of(m->gravity);
+  out->steer_damping = real_of(m->steer_damping);
+  kernel_body_of(&out->rear, &m->rear);
+  kernel_body_of(&out->front, &m->front);
+  out->rider_mass = real_of(m->rider_mass);
+  for (int i = 0; i < 3; i++) out->rider_arm[i] = real_of(m->rider_arm[i]);
+}
+
+#endif

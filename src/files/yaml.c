@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// The document: parsing, refusing what is not plain, walking, and reading by a list of keys.
+#include "yaml.h"
+
+#include "message.h"
+
+#include <bicycle/error.h>
+#include <libfyaml.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+// Our deepest file has four levels (root, parts, part, inertia, its numbers); this bounds the
+// recursion below whatever libfyaml allows.
+enum { DEEPEST = 16 };
+
+int bike_yaml_fail(const bike_yaml *yaml, const bike_field *field, int code, const char *format,
+                   ...) {
+  char what[BIKE_MESSAGE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(what, sizeof what, format, arguments);
+  va_end(arguments);
+  return bike_message_at(yaml->error, code, yaml->path, field ? field->line : 0,
+                         field ? field->key : NULL, what);
+}
+
+// The line of a scalar, from 1, or 0 for what has no token.
+static int line_of(struct fy_node *node) {
+  struct fy_token *token = fy_node_is_scalar(node) ? fy_node_get_scalar_token(node) : NULL;
+  const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
+  return mark ? mark->line + 1 : 0;
+}
+
+bool bike_yaml_next(struct fy_node *mapping, void **cursor, bike_field *out) {
+  struct fy_node_pair *pair = fy_node_mapping_iterate(mapping, cursor);
+  if (!pair) return false;
+  struct fy_node *key = fy_node_pair_key(pair);
+  const char *text = key ? fy_node_get_scalar0(key) : NULL;
+  *out = (bike_field){text ? text : "", key ? line_of(key) : 0, fy_node_pair_value(pair)};
+  return true;
+}
+
+// The first line found in a node, or `otherwise` for empty ones.
+static int first_line(struct fy_node *node, int otherwise) {
+  if (fy_node_is_mapping(node)) {
+    void *cursor = NULL;
+    bike_field field;
+    return bike_yaml_next(node, &cursor, &field) && field.line ? field.line : otherwise;
+  }
+  const int line = fy_node_is_scalar(node) ? line_of(node) : 0;
+  return line ? line : otherwise;
+}
+
+bool bike_yaml_next_entry(struct fy_node *list, void **cursor, bike_field *out) {
+  struct fy_node *entry = fy_node_sequence_iterate(list, cursor);
+  if (!entry) return false;
+  out->value = entry;
+  out->line = first_line(entry, out->line);
+  return true;
+}
+
+bool bike_yaml_find(struct fy_node *mapping, const char *key, bike_field *out) {
+  void *cursor = NULL;
+  bike_field field;
+  while (bike_yaml_next(mapping, &cursor, &field)) {
+    if (strcmp(field.key, key) != 0) continue;
+    *out = field;
+    return true;
+  }
+  return false;
+}
+
+static const char *forbidden(struct fy_node *node) {
+  if (fy_node_is_alias(node)) return "aliases are not accepted";
+  if (fy_node_get_anchor(node)) return "anchors are not accepted";
+  if (fy_node_get_tag(node, NULL)) return "tags are not accepted";
+  return NULL;
+}
+
+static int check_plain(const bike_yaml *yaml, bike_field where, int depth);
+
+static int check_mapping(const bike_yaml *yaml, const bike_field *where, int depth) {
+  void *cursor = NULL;
+  struct fy_node_pair *pair;
+  bike_field field = *where;
+  while ((pair = fy_node_mapping_iterate(where->value, &cursor))) {
+    struct fy_node *key = fy_node_pair_key(pair);
+    if (!key || !fy_node_is_scalar(key) || fy_node_is_alias(key) || !fy_node_get_scalar0(key))
+      return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "a key must be text");
+    field = (bike_field){fy_node_get_scalar0(key), line_of(key), fy_node_pair_value(pair)};
+    if (forbidden(key))
+      return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "%s", forbidden(key));
+    const int code = check_plain(yaml, field, depth);
+    if (code) return code;
+  }
+  return BIKE_OK;
+}
+
+static int check_list(const bike_yaml *yaml, bike_field where, int depth) {
+  struct fy_node *list = where.value;
+  void *cursor = NULL;
+  while (bike_yaml_next_entry(list, &cursor, &where)) {
+    const int code = check_plain(yaml, where, depth);
+    if (code) return code;
+  }
+  return BIKE_OK;
+}
+
+// Refuses what is not plain anywhere below a node.
+static int check_plain(const bike_yaml *yaml, bike_field where, int depth) {
+  if (!where.value) return BIKE_OK;
+  if (depth >= DEEPEST)
+    return bike_yaml_fail(yaml, &where, BIKE_ERROR_SYNTAX, "more than %d levels", DEEPEST);
+  const char *what = forbidden(where.value);
+  if (what) return bike_yaml_fail(yaml, &where, BIKE_ERROR_SYNTAX, "%s", what);
+  if (fy_node_is_mapping(where.value)) return check_mapping(yaml, &where, depth + 1);
+  if (fy_node_is_sequence(where.value)) return check_list(yaml, where, depth + 1);
+  return BIKE_OK;
+}
+
+// libfyaml's own complaint, or ours where it has none.
+static int parse_error(const bike_yaml *yaml, struct fy_diag *diag) {
+  void *cursor = NULL;
+  const struct fy_diag_error *first = fy_diag_errors_iterate(diag, &cursor);
+  if (!first)
+    return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, 0, NULL, "is not YAML");
+  return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first->line, NULL, first->msg);
+}
+
+// A parser that collects errors in `diag` and leaves keys given twice to bike_yaml_read: its own
+// check takes time with the square of their number.
+static struct fy_parser *create_parser(struct fy_diag *diag, const bike_text *text) {
+  const struct fy_parse_cfg configuration = {.flags = FYPCF_JSON_NONE | FYPCF_ALLOW_DUPLICATE_KEYS,
+                                             .diag = diag};
+  struct fy_parser *parser = fy_parser_create(&configuration);
+  if (!parser || fy_parser_set_string(parser, text->data, text->size) == 0) return parser;
+  fy_parser_destroy(parser);
+  return NULL;
+}
+
+static int check_document(bike_yaml *yaml, struct fy_diag *diag) {
+  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml, diag);
+  yaml->root = yaml->document ? fy_document_root(yaml->document) : NULL;
+  if (!yaml->root) return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX, "the file is empty");
+  struct fy_document *second = fy_parse_load_document(yaml->parser);
+  if (second) {
+    fy_parse_document_destroy(yaml->parser, second);
+    return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX, "more than one YAML document");
+  }
+  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml, diag);
+  if (!fy_node_is_mapping(yaml->root))
+    return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first_line(yaml->root, 1),
+                           NULL, "must hold `key: value` pairs");
+  return check_plain(yaml, (bike_field){"", 1, yaml->root}, 0);
+}
+
+int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,
+                   bike_file_error *error) {
+  *out = (bike_yaml){.path = path, .error = error};
+  struct fy_diag_cfg configuration;
+  fy_diag_cfg_default(&configuration);
+  configuration.fp = NULL; // a library does not print
+  struct fy_diag *diag = fy_diag_create(&configuration);
+  if (diag) {
+    fy_diag_set_collect_errors(diag, true);
+    out->parser = create_parser(diag, text);
+  }
+  int code = BIKE_ERROR_MEMORY;
+  if (out->parser) {
+    out->document = fy_parse_load_document(out->parser);
+    code = check_document(out, diag);
+  } else {
+    bike_message(error, code, "%s: out of memory", path);
+  }
+  if (diag) fy_diag_unref(diag);
+  return code;
+}
+
+void bike_yaml_close(bike_yaml *yaml) {
+  if (yaml->document) fy_parse_document_destroy(yaml->parser, yaml->document);
+  if (yaml->parser) fy_parser_destroy(yaml->parser);
+  *yaml = (bike_yaml){0};
+}
+
+static int index_of(bike_keys keys, const char *name) {
+  for (int i = 0; i < keys.count; ++i)
+    if (strcmp(keys.key[i].name, name) == 0) return i;
+  return -1;
+}
+
+static int missing_key(const bike_yaml *yaml, const bike_field *where, bike_keys keys,
+                       uint64_t seen) {
+  for (int i = 0; i < keys.count; ++i) {
+    if (!keys.key[i].required || (seen >> i & 1U)) continue;
+    return bike_yaml_fail(yaml, where, BIKE_ERROR_SYNTAX, "key '%s' is missing", keys.key[i].name);
+  }
+  return BIKE_OK;
+}
+
+int bike_yaml_read(const bike_yaml *yaml, const bike_field *where, struct fy_node *mapping,
+                   bike_keys keys, void *target) {
+  uint64_t seen = 0; // bit i: key i was given
+  void *cursor = NULL;
+  bike_field field;
+  while (bike_yaml_next(mapping, &cursor, &field)) {
+    const int i = index_of(keys, field.key);
+    if (i < 0) return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "unknown key");
+    if (seen >> i & 1U) return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "given twice");
+    seen |= (uint64_t)1 << i;
+    const int code = keys.key[i].read(yaml, &field, (char *)target + keys.key[i].offset);
+    if (code) return code;
+  }
+  return missing_key(yaml, where, keys, seen);
+}

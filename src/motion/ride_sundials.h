@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both SUNDIALS integrators share.
+#ifndef BICYCLE_MOTION_RIDE_SUNDIALS_H
+#define BICYCLE_MOTION_RIDE_SUNDIALS_H
+
+#include "motion/ride_flow.h"
+
+#include <nvector/nvector_serial.h>
+
+typedef struct ride_sundials {
+  SUNContext context;
+  N_Vector y; // over `data`
+  double data[RIDE_SIZE];
+} ride_sundials;
+
+// 0 or BIKE_ERROR_MEMORY; to be closed in either case.
+int ride_sundials_open(ride_sundials *out, const ride_point *start);
+void ride_sundials_close(ride_sundials *s);
+
+void ride_sundials_put(ride_sundials *s, const ride_point *from);
+void ride_sundials_get(ride_point *out, const ride_sundials *s, double t);
+
+// SUNDIALS' right-hand side; user data is the flow. Positive: try a shorter step; negative: give
+// up.
+int ride_sundials_rates(realtype t, N_Vector y, N_Vector dy, void *flow);
+
+// An error handler: the library never prints, and return values say what went wrong.
+void ride_sundials_quiet(int code, const char *module, const char *function, char *text,
+                         void *user);
+
+#endif

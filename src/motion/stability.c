@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eigenvalues of upright straight riding.
+#include <bicycle/error.h>
+#include <bicycle/stability.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+
+static int falling(const void *a, const void *b) {
+  const double *x = a, *y = b;
+  for (int i = 0; i < 2; i++)
+    if (x[i] != y[i]) return x[i] < y[i] ? 1 : -1;
+  return 0;
+}
+
+int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]) {
+  if (!out || !A) return BIKE_ERROR_ARGUMENT;
+  double copy[16], re[4], im[4], pairs[4][2];
+  for (int i = 0; i < 16; i++)
+    if (!isfinite(copy[i] = A[i])) return BIKE_ERROR_NOT_FINITE;
+  if (LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'N', 4, copy, 4, re, im, NULL, 1, NULL, 1))
+    return BIKE_ERROR_NO_CONVERGENCE;
+  for (int i = 0; i < 4; i++) {
+    pairs[i][0] = re[i];
+    pairs[i][1] = im[i];
+  }
+  qsort(pairs, 4, sizeof pairs[0], falling);
+  for (int i = 0; i < 4; i++) {
+    out->re[i] = pairs[i][0];
+    out->im[i] = pairs[i][1];
+  }
+  return BIKE_OK;
+}
+
+int bike_upright_eigenvalues(bike_eigenvalues *out, const bike_model *model, double speed) {
+  bike_linear linear;
+  bike_state straight = {.speed = speed};
+  int code = bike_linearize(&linear, model, &straight, NULL);
+  return code ? code : bike_eigenvalues_of(out, linear.A);
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run.h"
+
+#include "support/near.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[64];
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)info, (void)kind, (void)place;
+  return remove(path);
+}
+
+void run_enter(void) {
+  snprintf(folder, sizeof folder, "/tmp/bicycle-cli-XXXXXX");
+  assert_non_null(mkdtemp(folder));
+}
+
+void run_leave(void) {
+  assert_int_equal(nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS), 0);
+}
+
+const char *run_folder(void) {
+  return folder;
+}
+
+static char *read_all(FILE *file) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *copy = open_memstream(&text, &size);
+  rewind(file);
+  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
+  fclose(copy);
+  fclose(file);
+  return text;
+}
+
+// The child: never returns.
+static void become(const char *command, int out, int err) {
+  const char *old = getenv("PATH");
+  char path[8192];
+  snprintf(path, sizeof path, "%s/bin:%s", BICYCLE_BINARY_DIR, old ? old : "/usr/bin:/bin");
+  if (chdir(folder) != 0 || setenv("PATH", path, 1) != 0) _exit(127);
+  int in = open("/dev/null", O_RDONLY);
+  dup2(in, 0);
+  dup2(out, 1);
+  dup2(err, 2);
+  execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+  _exit(127);
+}
+
+run_result run_command(const char *command) {
+  FILE *out = tmpfile(), *err = tmpfile();
+  assert_non_null(out);
+  assert_non_null(err);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) become(command, fileno(out), fileno(err));
+  int status = 0;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  return (run_result){.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                      .out = read_all(out),
+                      .err = read_all(err)};
+}
+
+void run_free(run_result *result) {
+  free(result->out);
+  free(result->err);
+}
+
+char *run_list(void) {
+  struct dirent **entries;
+  char *text = NULL;
+  size_t size = 0;
+  int count = scandir(folder, &entries, NULL, alphasort);
+  assert_true(count >= 0);
+  FILE *list = open_memstream(&text, &size);
+  for (int i = 0; i < count; i++) {
+    fprintf(list, "%s\n", entries[i]->d_name);
+    free(entries[i]);
+  }
+  free(entries);
+  fclose(list);
+  return text;
+}
+
+json_t *run_json(const char *command) {
+  run_result result = run_command(command);
+  if (result.status != 0) print_error("%s: %s\n", command, result.err);
+  assert_int_equal(result.status, 0);
+  json_error_t error;
+  json_t *document = json_loads(result.out, JSON_REJECT_DUPLICATES, &error);
+  if (!document) print_error("%s: line %d: %s\n", command, error.line, error.text);
+  assert_non_null(document);
+  run_free(&result);
+  return document;
+}
+
+double run_number(const json_t *object, const char *key) {
+  const json_t *value = json_object_get(object, key);
+  if (!json_is_number(value)) print_error("no number '%s'\n", key);
+  assert_true(json_is_number(value));
+  return json_number_value(value);
+}

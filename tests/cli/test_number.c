@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of a command line are taken whole and finite, or not at all.
+#include "support/near.h"
+#include "terminal/number.h"
+
+#include <locale.h>
+#include <math.h>
+
+static const double untouched = 12345;
+
+static void numbers(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double value;
+  } right[] = {{"0", 0},       {"-1.5", -1.5}, {"+2", 2},     {"1e3", 1000}, {".5", 0.5},
+               {"1E-2", 0.01}, {"5.", 5},      {"1e-400", 0}, {"0.1", 0.1},  {"1e308", 1e308}};
+  static const char *const wrong[] = {"",          " 1",    "1 ",   "1.5abc", "nan", "NaN", "inf",
+                                      "-infinity", "1e999", "0x10", "1,5",    "--1", "1-",  "e5",
+                                      ".",         "-",     "1e",   "1deg",   "1\n"};
+  for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
+    double value = untouched;
+    assert_true(term_parse_number(&value, right[i].text));
+    assert_near(value, right[i].value, 0);
+  }
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    double value = untouched;
+    if (term_parse_number(&value, wrong[i])) fail_msg("'%s' was taken", wrong[i]);
+    assert_near(value, untouched, 0);
+  }
+}
+
+static void angles(void **state) {
+  (void)state;
+  double value = untouched;
+  assert_true(term_parse_angle(&value, "-5deg"));
+  assert_near(value, -5 * M_PI / 180, 1e-16);
+  assert_true(term_parse_angle(&value, "0.25"));
+  assert_near(value, 0.25, 0);
+  static const char *const wrong[] = {"deg",    "5 deg",    "5degrees", "5Deg",
+                                      "nandeg", "1e999deg", "5degdeg",  "5rad"};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+    if (term_parse_angle(&value, wrong[i])) fail_msg("'%s' was taken", wrong[i]);
+}
+
+static void ranges(void **state) {
+  (void)state;
+  term_range range;
+  assert_true(term_parse_range(&range, "0.1:0.7:7"));
+  assert_near(term_range_point(&range, 0), 0.1, 0);
+  assert_near(term_range_point(&range, 6), 0.7, 0);
+  assert_near(term_range_point(&range, 3), 0.4, 1e-16);
+  assert_true(term_parse_range(&range, "-3:-3:1"));
+  assert_near(term_range_point(&range, 0), -3, 0);
+  double interval[2];
+  assert_true(term_parse_interval(interval, "0:20"));
+  static const char *const wrong[] = {"0:1", "0:1:0", "0:1:1", "1:1:2",   "1:0:3",  "0:1:2:3",
+                                      "::",  "0:1:",  "0:x:3", "0:1:2.5", "0:nan:3"};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+    if (term_parse_range(&range, wrong[i])) fail_msg("'%s' was taken", wrong[i]);
+  static const char *const wrong_interval[] = {"1", "1:1", "2:1", ":1", "1:", "0:1:2", "a:b"};
+  for (size_t i = 0; i < sizeof wrong_interval / sizeof wrong_interval[0]; i++)
+    if (term_parse_interval(interval, wrong_interval[i]))
+      fail_msg("'%s' was taken", wrong_interval[i]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers), cmocka_unit_test(angles),
+                                     cmocka_unit_test(ranges)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wrong command lines: exit code 2, one line on stderr that says what is wrong, nothing on stdout,
+// and no file left behind.
+#include "run.h"
+#include "support/near.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct wrong {
+  const char *command;
+  const char *says; // must be in the line
+} wrong;
+
+// A start from which every option of `ride` but the wrong one is right.
+#define RIDE "bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o out.csv "
+
+static const wrong commands[] = {
+    // The program.
+    {"bicycle", "command is missing"},
+    {"bicycle nosuch", "'nosuch' is not a command"},
+    {"bicycle ''", "not a command"},
+    {"bicycle ../bin/bicycle", "not a command"},
+    {"bicycle state/", "not a command"},
+    {"bicycle --nosuch", "--nosuch"},
+    // The bicycle.
+    {"bicycle state --speed 5", "FILE is missing"},
+    {"bicycle state nosuch --speed 5", "nosuch"},
+    {"bicycle state nosuch.yml --speed 5", "nosuch.yml"},
+    {"bicycle state folder --speed 5", "folder"},
+    {"bicycle state ./folder --speed 5", "folder"},
+    {"bicycle state '' --speed 5", "bicycle state"},
+    {"bicycle state benchmark roadster --speed 5", "'roadster'"},
+    {"bicycle state empty.yml --speed 5", "empty.yml"},
+    {"bicycle state \"$(printf 'a\\nb').yml\" --speed 5", "a?b.yml"},
+    {"bicycle linear nosuch.yml --speed 5", "nosuch.yml"},
+    {"bicycle stability nosuch.yml", "nosuch.yml"},
+    {"bicycle draw nosuch.yml", "nosuch.yml"},
+    // Numbers.
+    {"bicycle state roadster --speed 1.5abc", "--speed: '1.5abc'"},
+    {"bicycle state roadster --speed nan", "--speed: 'nan'"},
+    {"bicycle state roadster --speed inf", "'inf'"},
+    {"bicycle state roadster --speed 1e999", "'1e999'"},
+    {"bicycle state roadster --speed ''", "''"},
+    {"bicycle state roadster --speed 5deg", "'5deg'"},
+    {"bicycle state roadster --speed 5 --lean 5grad", "--lean: '5grad'"},
+    {"bicycle state roadster --speed 5 --steer-rate ' 1'", "--steer-rate"},
+    {"bicycle state roadster --speed 5 --rider-offset 1cm", "--rider-offset"},
+    {"bicycle stability roadster --speeds 0:10", "--speeds"},
+    {"bicycle stability roadster --speeds 0:10:0", "--speeds"},
+    {"bicycle stability roadster --speeds 0:10:1000000000000", "--speeds"},
+    {"bicycle stability roadster --speeds 10:0:5", "--speeds"},
+    {"bicycle stability roadster --search 10:0", "--search"},
+    {"bicycle stability roadster --search -5:5", "--search"},
+    // Options.
+    {"bicycle state roadster", "--speed is missing"},
+    {"bicycle linear roadster", "--speed is missing"},
+    {"bicycle ride roadster --time 1 --sample 0.1 -o out.csv", "--speed is missing"},
+    {"bicycle ride roadster --speed 6 --sample 0.1 -o out.csv", "--time is missing"},
+    {"bicycle ride roadster --speed 6 --time 1 -o out.csv", "--sample is missing"},
+    {"bicycle state roadster --speed", "--speed"},
+    {"bicycle state roadster --speed 5 --nosuch", "--nosuch"},
+    {"bicycle state roadster --speed 5 --s 1", "--s"},
+    {"bicycle state roadster --speed 5 -q", "q"},
+    {"bicycle state roadster --speed 5 --json=yes", "json"},
+    {"bicycle state roadster --speed 5 --convention din", "--convention: 'din'"},
+    // States.
+    {"bicycle state roadster --speed 5 --lean 90deg", "no geometry"},
+    {"bicycle state roadster_riderless --speed 5 --rider-offset 0.01", "rider"},
+    // Rides.
+    {"bicycle ride roadster --speed 6 --time -1 --sample 0.1 -o out.csv", "--time: -1"},
+    {"bicycle ride roadster --speed 6 --time 0 --sample 0.1 -o out.csv", "--time: 0"},
+    {"bicycle ride roadster --speed 6 --time 1 --sample 2 -o out.csv", "--sample 2 is longer"},
+    {RIDE "--lean 90deg", "no geometry"},
+    {RIDE "--method euler", "--method: 'euler'"},
+    {RIDE "--rtol -1", "--rtol"},
+    {RIDE "--rtol 1e-30", "rtol"},
+    {RIDE "--atol 0", "--atol"},
+    {RIDE "--step 0.01", "--step is for --method rk4"},
+    {RIDE "--method rk4 --rtol 1e-9", "--rtol"},
+    {RIDE "--method rk4 --step 0.03", "step"},
+    {RIDE "--lean-limit 91deg", "--lean-limit"},
+    {RIDE "--stop-at wall", "--stop-at: 'wall'"},
+    {RIDE "--steer-torque 1 --rider-offset 0.01", "exclude each other"},
+    {RIDE "--roll-torque 1 --input input.csv", "exclude each other"},
+    {RIDE "--input nosuch.csv", "nosuch.csv"},
+    {RIDE "--input folder", "folder"},
+    {RIDE "--input empty.csv", "empty.csv"},
+    {RIDE "--input broken.csv", "broken.csv:3"},
+    {"bicycle ride roadster_riderless --speed 6 --time 1 --sample 0.1 -o out.csv "
+     "--rider-offset 0.01",
+     "rider"},
+    {"bicycle ride roadster_riderless --speed 6 --time 1 --sample 0.1 -o out.csv --input input.csv",
+     "rider"},
+    // Outputs.
+    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o folder", "folder"},
+    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o nosuch/out.csv", "nosuch/out.csv"},
+    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o /dev/full", "No space left"},
+    {"bicycle draw roadster -o folder", "folder"},
+    {"bicycle draw roadster -o nosuch/x.svg", "nosuch/x.svg"},
+    {"bicycle draw roadster > /dev/full", "No space left"},
+    {"bicycle state roadster --speed 5 > /dev/full", "No space left"},
+    {"bicycle state roadster --speed 5 --json > /dev/full", "No space left"},
+    {"bicycle stability roadster > /dev/full", "No space left"},
+    {"bicycle --help > /dev/full", "No space left"},
+    {"bicycle state --help > /dev/full", "No space left"},
+};
+
+static int count_lines(const char *text) {
+  int lines = 0;
+  for (; *text; text++) lines += *text == '\n';
+  return lines;
+}
+
+static bool check(const wrong *expected, const char *files) {
+  run_result result = run_command(expected->command);
+  char *after = run_list();
+  bool right = result.status == 2 && count_lines(result.err) == 1 && !*result.out &&
+               strncmp(result.err, "bicycle", strlen("bicycle")) == 0 &&
+               strstr(result.err, expected->says) && strcmp(files, after) == 0;
+  if (!right)
+    print_error("%s\n  exit %d, must be 2; must say: %s\n  out: %s\n  err: %s\n  files: %s\n",
+                expected->command, result.status, expected->says, result.out, result.err, after);
+  free(after);
+  run_free(&result);
+  return right;
+}
+
+static void every_wrong_command_is_refused(void **state) {
+  (void)state;
+  char *files = run_list();
+  int failures = 0;
+  for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+    failures += !check(&commands[i], files);
+  free(files);
+  assert_int_equal(failures, 0);
+}
+
+// A wrong command leaves what stood under the name of its output.
+static void an_old_output_survives(void **state) {
+  (void)state;
+  run_result result =
+      run_command("echo old > out.csv; " RIDE "--lean 90deg; cat out.csv; rm out.csv");
+  assert_string_equal(result.out, "old\n");
+  run_free(&result);
+}
+
+static int enter(void **state) {
+  (void)state;
+  run_enter();
+  run_result made = run_command("mkdir folder && : > empty.yml && : > empty.csv &&"
+                                "printf 'time,rider_offset\\n0,0\\n1,0.01\\n' > input.csv &&"
+                                "printf 'time,steer_torque\\n0,0\\n1,x\\n' > broken.csv");
+  int status = made.status;
+  run_free(&made);
+  return status;
+}
+
+static int leave(void **state) {
+  (void)state;
+  run_leave();
+  return 0;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_wrong_command_is_refused),
+                                     cmocka_unit_test(an_old_output_survives)};
+  return cmocka_run_group_tests(tests, enter, leave);
+}

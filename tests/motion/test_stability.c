@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eigenvalues and critical speeds of upright riding against the literature, and against a plain
+// scan of the eigenvalues on every bicycle.
+#include "equations/bicycles.h"
+#include "reference/reference.h"
+#include "support/near.h"
+#include "support/random.h"
+#include <bicycle/error.h>
+#include <bicycle/stability.h>
+#include <string.h>
+
+static bike_model model_of(const bike_bicycle *bicycle) {
+  bike_model model;
+  assert_int_equal(bike_model_init(&model, bicycle), BIKE_OK);
+  return model;
+}
+
+static bike_model shipped_model(const char *name) {
+  bike_bicycle bicycle = read_shipped(name);
+  return model_of(&bicycle);
+}
+
+// Distance from a published eigenvalue to the nearest computed one.
+static double miss(const bike_eigenvalues *e, double re, double im) {
+  double best = INFINITY;
+  for (int i = 0; i < 4; i++) best = fmin(best, hypot(e->re[i] - re, e->im[i] - im));
+  return best;
+}
+
+static double entry(const json_t *document, const char *list, int i) {
+  char path[64];
+  snprintf(path, sizeof path, "meijaard2007.%s.%d", list, i);
+  return reference_number(document, path);
+}
+
+static void published_eigenvalues(void **state) {
+  (void)state;
+  json_t *document = reference_open();
+  bike_model model = shipped_model("benchmark");
+  double worst = 0;
+  for (int v = 0; v <= 10; v++) {
+    bike_eigenvalues e;
+    assert_int_equal(bike_upright_eigenvalues(&e, &model, v), BIKE_OK);
+    worst = fmax(worst, miss(&e, entry(document, "capsize_eig", v), 0));
+    worst = fmax(worst, miss(&e, entry(document, "castering_eig", v), 0));
+    if (v == 0) {
+      for (int i = 0; i < 4; i++) worst = fmax(worst, miss(&e, entry(document, "v0_real", i), 0));
+    } else {
+      double re = entry(document, "weave_re", v), im = entry(document, "weave_im", v);
+      worst = fmax(worst, fmax(miss(&e, re, im), miss(&e, re, -im)));
+    }
+  }
+  json_decref(document);
+  printf("eigenvalues at v = 0..10: off by %.2g 1/s at most\n", worst);
+  // the list is printed to 14 digits with values up to 25, and said to be off by up to 6e-13
+  assert_below(worst, 2e-12);
+}
+
+static void published_critical_speeds(void **state) {
+  (void)state;
+  json_t *document = reference_open();
+  bike_model model = shipped_model("benchmark");
+  bike_critical_speeds found;
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, 0, 1000), BIKE_OK);
+  assert_int_equal(found.weave_count, 1);
+  assert_int_equal(found.capsize_count, 1);
+  assert_int_equal(found.range_count, 1);
+  double weave = reference_number(document, "meijaard2007.special_speeds.weave.v");
+  double capsize = reference_number(document, "meijaard2007.special_speeds.capsize.v");
+  json_decref(document);
+  assert_near(found.weave[0], weave, 1e-12);
+  assert_near(found.capsize[0], capsize, 1e-12);
+  assert_true(found.ranges[0][0] == found.weave[0] && found.ranges[0][1] == found.capsize[0]);
+}
+
+static int unstable_at(const bike_model *model, double v) {
+  bike_eigenvalues e;
+  assert_int_equal(bike_upright_eigenvalues(&e, model, v), BIKE_OK);
+  int count = 0;
+  for (int i = 0; i < 4; i++) count += e.re[i] > 0;
+  return count;
+}
+
+static double smallest_real_part(const bike_model *model, double v) {
+  bike_eigenvalues e;
+  assert_int_equal(bike_upright_eigenvalues(&e, model, v), BIKE_OK);
+  double best = INFINITY;
+  for (int i = 0; i < 4; i++) best = fmin(best, fabs(e.re[i]));
+  return best;
+}
+
+// What the critical speeds below v say of the number of unstable eigenvalues there, starting from
+// the number found at the lower end.
+static bool in_stable_range(const bike_critical_speeds *found, double v) {
+  for (int i = 0; i < found->range_count; i++)
+    if (v > found->ranges[i][0] && v < found->ranges[i][1]) return true;
+  return false;
+}
+
+// A scan of 2000 speeds sees exactly the ranges reported, and at each critical speed an eigenvalue
+// really lies on the imaginary axis.
+static void check_against_scan(const bike_model *model, const char *name) {
+  const double low = 0, high = 40;
+  bike_critical_speeds found;
+  assert_int_equal(bike_upright_critical_speeds(&found, model, low, high), BIKE_OK);
+  for (int i = 1; i < 2000; i++) {
+    double v = low + (high - low) * i / 2000;
+    assert_int_equal(in_stable_range(&found, v), unstable_at(model, v) == 0);
+  }
+  // an eigenvalue of size 20 in the spectrum carries rounding of some 1e-14 of it, times the
+  // condition of the eigenvalue
+  for (int i = 0; i < found.weave_count; i++)
+    assert_below(smallest_real_part(model, found.weave[i]), 1e-11);
+  for (int i = 0; i < found.capsize_count; i++)
+    assert_below(smallest_real_part(model, found.capsize[i]), 1e-11);
+  printf("%s: weave %.13g, capsize %.13g m/s\n", name, found.weave_count ? found.weave[0] : NAN,
+         found.capsize_count ? found.capsize[0] : NAN);
+}
+
+static void shipped_bicycles_match_a_scan(void **state) {
+  (void)state;
+  for (int i = 0; i < SHIPPED_COUNT; i++) {
+    bike_model model = shipped_model(shipped_bicycles[i].name);
+    check_against_scan(&model, shipped_bicycles[i].name);
+  }
+}
+
+static void random_bicycles_match_a_scan(void **state) {
+  (void)state;
+  random_source source = random_begin("critical speeds", 4292);
+  for (int i = 0; i < 20; i++) {
+    bike_bicycle bicycle = random_bicycle(&source, true);
+    bicycle.steer_damping = i % 2 ? random_between(&source, 0, 2) : 0;
+    bike_model model = model_of(&bicycle);
+    check_against_scan(&model, "random");
+  }
+}
+
+// The paper's roadster is stable up to 'about 7 m/s' (section 4).
+static void roadster_capsizes_near_seven(void **state) {
+  (void)state;
+  bike_model model = shipped_model("roadster");
+  bike_critical_speeds found;
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, 0, 20), BIKE_OK);
+  assert_true(found.capsize_count >= 1);
+  assert_near(found.capsize[0], 7, 0.1);
+}
+
+static void impossible_questions_are_refused(void **state) {
+  (void)state;
+  bike_model model = shipped_model("benchmark");
+  bike_critical_speeds found;
+  bike_eigenvalues e;
+  double A[16] = {NAN};
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, 5, 5), BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, -1, 5), BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, NAN, 5), BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, 0, INFINITY), BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_upright_critical_speeds(NULL, &model, 0, 1), BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_eigenvalues_of(&e, A), BIKE_ERROR_NOT_FINITE);
+  random_source source = random_begin("asymmetric", 1);
+  bike_bicycle crooked = random_bicycle(&source, false);
+  model = model_of(&crooked);
+  assert_int_equal(bike_upright_critical_speeds(&found, &model, 0, 10), BIKE_ERROR_NOT_STATIONARY);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(published_eigenvalues),
+      cmocka_unit_test(published_critical_speeds),
+      cmocka_unit_test(shipped_bicycles_match_a_scan),
+      cmocka_unit_test(random_bicycles_match_a_scan),
+      cmocka_unit_test(roadster_capsizes_near_seven),
+      cmocka_unit_test(impossible_questions_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library does with faulty markers, states, stacks and controls, and what it says.
+#include "rolling_support.h"
+
+#include <string.h>
+
+static int warnings;
+static char last_warning[1000];
+
+static void note_warning(const char *text) {
+  warnings++;
+  snprintf(last_warning, sizeof last_warning, "%s", text);
+}
+
+static int install(void **state) {
+  mju_user_warning = note_warning;
+  return install_rolling(state);
+}
+
+static void test_faulty_markers(void **unused) {
+  (void)unused;
+  mjModel *good = load("bicycle.xml");
+  int joint = mj_name2id(good, mjOBJ_JOINT, "steer"), frame = 1, element;
+  const struct {
+    int type, id;
+    mjtNum radius;
+    roll_error error;
+  } faults[] = {
+      {mjOBJ_JOINT, joint, 0.3, ROLL_BAD_OBJECT}, {mjOBJ_BODY, 0, 0.3, ROLL_FIXED_BODY},
+      {mjOBJ_BODY, frame, 0, ROLL_BAD_RADIUS},    {mjOBJ_BODY, frame, -1, ROLL_BAD_RADIUS},
+      {mjOBJ_BODY, frame, NAN, ROLL_BAD_RADIUS},  {mjOBJ_BODY, frame, INFINITY, ROLL_BAD_RADIUS},
+  };
+  assert_int_equal(roll_check(&element, good), ROLL_OK);
+  assert_int_equal(element, -1);
+  for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
+    mjModel *m = mj_copyModel(NULL, good);
+    m->tuple_objtype[1] = faults[i].type;
+    m->tuple_objid[1] = faults[i].id;
+    m->tuple_objprm[1] = faults[i].radius;
+    assert_int_equal(roll_check(&element, m), faults[i].error);
+    assert_int_equal(element, 1);
+    assert_int_equal(roll_check(NULL, m), faults[i].error);
+    // the other disc rolls on
+    mjData *d = mj_makeData(m);
+    roll_disc disc[2];
+    mj_forward(m, d);
+    assert_int_equal(roll_discs(disc, 2, m, d), faults[i].error);
+    assert_int_equal(disc[0].error, ROLL_OK);
+    assert_true(disc[0].normal_force > 100);
+    assert_int_equal(disc[1].error, faults[i].error);
+    assert_true(disc[1].normal_force == 0);
+    assert_int_equal(roll_project(m, d), faults[i].error);
+    mj_deleteData(d);
+    mj_deleteModel(m);
+  }
+  mj_deleteModel(good);
+}
+
+static void test_no_axle(void **unused) {
+  (void)unused;
+  mjModel *m = load("disc_free.xml");
+  m->tuple_objtype[0] = mjOBJ_BODY;
+  m->tuple_objid[0] = 1;
+  assert_int_equal(roll_check(NULL, m), ROLL_NO_AXLE);
+  mj_deleteModel(m);
+}
+
+static void test_flat_disc_is_left_free(void **unused) {
+  (void)unused;
+  mjModel *m = load("disc_free.xml");
+  mjData *d = mj_makeData(m);
+  d->qpos[2] = 1;
+  mju_axisAngle2Quat(d->qpos + 3, (mjtNum[3]){1, 0, 0}, 1.5707963267948966);
+  roll_disc disc;
+  mj_forward(m, d);
+  assert_int_equal(roll_discs(&disc, 1, m, d), ROLL_FLAT);
+  assert_int_equal(disc.error, ROLL_FLAT);
+  assert_near(d->qacc[2], -9.81, 1e-12);
+  assert_int_equal(roll_project(m, d), ROLL_FLAT);
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
+static void test_small_stack(void **unused) {
+  (void)unused;
+  mjModel *m = load("bicycle.xml");
+  mjData *d = mj_makeData(m);
+  roll_disc disc[2];
+  mj_forward(m, d);
+  int whole = d->nstack;
+  d->nstack = 200;
+  mj_forward(m, d);
+  assert_int_equal(roll_discs(disc, 2, m, d), ROLL_NO_STACK);
+  assert_int_equal(disc[1].error, ROLL_NO_STACK);
+  assert_int_equal(roll_project(m, d), ROLL_NO_STACK);
+  assert_int_equal(d->pstack, 0);
+  d->nstack = whole;
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
+static void step_often(const mjModel *m, int warnings_after_one, int warnings_after_many) {
+  mjData *d = mj_makeData(m);
+  warnings = 0;
+  mj_step(m, d);
+  assert_int_equal(warnings, warnings_after_one);
+  for (int i = 0; i < 20; i++) mj_step(m, d);
+  assert_int_equal(warnings, warnings_after_many);
+  mj_deleteData(d);
+}
+
+// Each complaint is made once, through mju_warning, and not before the second step.
+static void test_warnings(void **unused) {
+  (void)unused;
+  mjModel *m = load("bicycle.xml"), *sensor = load("obstacle.xml");
+  mjModel *bad = mj_copyModel(NULL, m), *sparse = mj_copyModel(NULL, m);
+  bad->tuple_objprm[0] = 0;
+  sparse->opt.jacobian = mjJAC_SPARSE;
+  sparse->jnt_limited[7] = 1;
+  sparse->jnt_range[14] = 0.1; // the steer angle, 0, is beyond it
+  sparse->jnt_range[15] = 0.2;
+  step_often(m, 0, 0);
+  step_often(bad, 0, 1);
+  assert_string_equal(last_warning, roll_error_string(ROLL_BAD_RADIUS));
+  step_often(bad, 0, 0);
+  step_often(sparse, 0, 1);
+  assert_non_null(strstr(last_warning, "sparse"));
+  step_often(sensor, 0, 1);
+  assert_non_null(strstr(last_warning, "sensors"));
+  mj_deleteModel(sensor);
+  mj_deleteModel(sparse);
+  mj_deleteModel(bad);
+  mj_deleteModel(m);
+}
+
+// A bad control goes MuJoCo's own way: its warning, and zero in its place.
+static void test_nan_control(void **unused) {
+  (void)unused;
+  mjModel *m = load("bicycle.xml");
+  mjData *d = mj_makeData(m);
+  d->ctrl[0] = NAN;
+  mj_forward(m, d);
+  assert_true(d->warning[mjWARN_BADCTRL].number > 0);
+  for (int i = 0; i < m->nv; i++) assert_near(d->qacc[i], 0, 1e-10);
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
+static void test_error_strings(void **unused) {
+  (void)unused;
+  assert_string_equal(roll_error_string(ROLL_OK), "no error");
+  for (int i = ROLL_OK; i <= ROLL_NOT_INSTALLED; i++)
+    assert_true(strlen(roll_error_string((roll_error)i)) > 5);
+  assert_non_null(roll_error_string((roll_error)-1));
+  assert_non_null(roll_error_string((roll_error)1000));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_faulty_markers),
+      cmocka_unit_test(test_no_axle),
+      cmocka_unit_test(test_flat_disc_is_left_free),
+      cmocka_unit_test(test_small_stack),
+      cmocka_unit_test(test_warnings),
+      cmocka_unit_test(test_nan_control),
+      cmocka_unit_test(test_error_strings),
+  };
+  return cmocka_run_group_tests(tests, install, uninstall_rolling);
+}

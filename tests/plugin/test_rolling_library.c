@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// libmujoco_rolling.so as a host sees it that knows nothing of it: loading is all.
+// Without roll_ functions of its own, so that none can stand in for the library's.
+#include <dlfcn.h>
+#include <mujoco/mujoco.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "support/near.h"
+
+typedef struct fixture {
+  mjModel *m;
+  mjData *d;
+} fixture;
+
+static int load(void **state) {
+  static fixture f;
+  char path[1024], error[500] = "";
+  snprintf(path, sizeof path, "%s/bicycle.xml", getenv("ROLL_MODELS"));
+  f.m = mj_loadXML(path, NULL, error, sizeof error);
+  if (!f.m) return -1;
+  f.d = mj_makeData(f.m);
+  *state = &f;
+  return 0;
+}
+
+static int unload(void **state) {
+  fixture *f = *state;
+  mj_deleteData(f->d);
+  mj_deleteModel(f->m);
+  return 0;
+}
+
+// At rest and upright the bicycle falls freely unless its wheels stand on the ground.
+static void test_loading_installs(void **state) {
+  fixture *f = *state;
+  mj_forward(f->m, f->d);
+  assert_near(f->d->qacc[2], -9.81, 1e-12);
+
+  void *library = dlopen(getenv("ROLL_LIBRARY"), RTLD_NOW | RTLD_LOCAL);
+  if (!library) fail_msg("%s", dlerror());
+  assert_non_null(mjcb_control);
+  mj_forward(f->m, f->d);
+  assert_near(f->d->qacc[2], 0, 1e-10);
+
+  assert_int_equal(dlclose(library), 0);
+  assert_null(mjcb_control);
+  mj_forward(f->m, f->d);
+  assert_near(f->d->qacc[2], -9.81, 1e-12);
+}
+
+static void test_only_roll_symbols(void **state) {
+  (void)state;
+  void *library = dlopen(getenv("ROLL_LIBRARY"), RTLD_NOW | RTLD_LOCAL);
+  assert_non_null(library);
+  assert_non_null(dlsym(library, "roll_discs"));
+  assert_null(dlsym(library, "roll_build_system"));
+  assert_int_equal(dlclose(library), 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_loading_installs),
+      cmocka_unit_test(test_only_roll_symbols),
+  };
+  return cmocka_run_group_tests(tests, load, unload);
+}

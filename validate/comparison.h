@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario played by its two engines: measured layer by layer, judged, explained.
+#ifndef VALIDATE_COMPARISON_H
+#define VALIDATE_COMPARISON_H
+
+#include "gate.h"
+
+enum { COMPARISON_LABEL = 24, COMPARISON_CAUSE = 1200 };
+
+// One engine at work. The label is its name, or "reference" and "candidate" where both engines
+// have the same name.
+typedef struct comparison_side {
+  const engine *engine;
+  void *instance;
+  char label[COMPARISON_LABEL];
+  trace trace;
+} comparison_side;
+
+enum { REFERENCE, CANDIDATE };
+
+typedef enum verdict { VERDICT_AGREE, VERDICT_FAIL, VERDICT_INVALID } verdict;
+
+// "agree", "fail", "invalid".
+const char *verdict_string(verdict v);
+term_exit verdict_exit(verdict v);
+
+// Told of progress within the scenario, 0..1.
+typedef void comparison_progress(double share, void *user);
+
+typedef struct comparison {
+  const scenario *scenario;
+  comparison_side side[2];
+  double growth_rate; // 1/s  of scenario_growth, resolved
+  double weight;      // N    of the bicycle with its rider
+  bool ridden;        //      both traces are there
+
+  measurement_list measurements;
+  gate_list gates;
+  verdict verdict;
+  const struct layer *first_failure; // NULL while all hold
+  char cause[COMPARISON_CAUSE];      // one sentence, empty while all hold
+
+  comparison_progress *progress; // may be NULL
+  void *user;
+} comparison;
+
+// Creates both engines. The scenario must outlive the comparison. On a problem (TERM_USAGE: an
+// engine cannot hold this bicycle) close it too.
+term_exit comparison_open(comparison *c, const scenario *s, problem *p);
+void comparison_close(comparison *c);
+
+// Measures all layers and judges. TERM_DONE with a verdict, an invalid run included; TERM_USAGE
+// where the scenario asks for what is impossible.
+term_exit comparison_run(comparison *c, problem *p);
+
+// Lets both engines ride, once; for the layers that look at rides.
+term_exit comparison_ride(comparison *c, problem *p);
+
+// Rows that both traces have.
+size_t comparison_rows(const comparison *c);
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// An engine: anything that can say what a bicycle does at an instant and during a ride.
+//
+// An engine is one const struct of functions. To add one, write engine_NAME.c and name its struct
+// in engines.c; nothing else knows which engines there are. Engines share no code with each other
+// beyond this header, so that their agreement means something.
+#ifndef VALIDATE_ENGINE_H
+#define VALIDATE_ENGINE_H
+
+#include "problem.h"
+#include "trace.h"
+
+#include <bicycle/state.h>
+
+enum { ENGINE_MAX_OPTIONS = 8, ENGINE_VERSION_SIZE = 96, ENGINE_HASH_SIZE = 65 };
+
+// An option of an engine in a scenario: a positive number, or one of a few words.
+typedef struct engine_option {
+  const char *name;           //
+  const char *unit;           // of a number
+  const char *const *choices; // NULL-terminated; NULL: a number
+  double value;               // the default: a number > 0, or the index of a choice
+} engine_option;
+
+// What an engine says of a state, all of it at x = y = yaw = 0. Accelerations and rates are about
+// the directions of bike_snapshot; index 0: rear, 1: front wheel.
+typedef struct engine_instant {
+  double lean_acceleration, steer_acceleration, yaw_acceleration, pitch_acceleration; // rad/s^2
+  double wheel_acceleration[2];                                                       // rad/s^2
+  double speed_rate;                                                                  // m/s^2
+  double yaw_rate, pitch_rate;                                                        // rad/s
+  double wheel_rate[2];                                                               // rad/s
+  double pitch;                                                                       // rad
+  double kinetic, potential;                                                          // J
+  double force[2][3]; // N  of the ground on the wheel (along e_R, left, up)
+} engine_instant;
+
+// Called after each row of a ride with the share done, 0..1; false interrupts the ride.
+typedef bool engine_progress(double share, void *user);
+
+typedef struct engine_ride {
+  bike_state start;          //
+  double duration, sample;   // s
+  double lean_limit;         // rad  the ride ends there
+  engine_progress *progress; //  may be NULL
+  void *user;                //
+} engine_ride;
+
+typedef struct engine {
+  const char *name;    // in scenarios: "mujoco"
+  const char *summary; // one line
+
+  const engine_option *options; // option_count of them; NULL without
+  int option_count;             // <= ENGINE_MAX_OPTIONS
+
+  // An instance for a bicycle; `option` holds a value for each option. NULL with a problem and its
+  // exit code in `code` otherwise.
+  void *(*create)(const bike_bicycle *bicycle, const double *option, term_exit *code, problem *p);
+  void (*free)(void *instance);
+
+  // The programs and versions at work: "MuJoCo 2.2.2".
+  void (*version)(char out[ENGINE_VERSION_SIZE]);
+
+  // SHA-256 of what the engine made of the bicycle (the text of its model), in hexadecimal; NULL
+  // for an engine that uses the bicycle's numbers as they are.
+  void (*model_hash)(char out[ENGINE_HASH_SIZE], void *instance);
+
+  // The bicycle as the engine's own model holds it, read back: at most one part for each assembly.
+  // NULL for an engine that uses the bicycle's numbers as they are.
+  term_exit (*parameters)(bike_bicycle *out, void *instance, problem *p);
+
+  // The instant at a state, hands off. TERM_USAGE: the state is outside the engine's domain.
+  term_exit (*evaluate)(engine_instant *out, void *instance, const bike_state *state, problem *p);
+
+  // Rides and records into an empty trace. TERM_DONE also when an event ended the ride.
+  term_exit (*ride)(trace *out, void *instance, const engine_ride *ride, problem *p);
+} engine;
+
+extern const engine engine_analytic, engine_mujoco;
+
+// All engines by number; NULL beyond the last.
+const engine *engine_at(int index);
+const engine *engine_find(const char *name);
+
+// An engine with its options, as a scenario asks for it.
+typedef struct engine_choice {
+  const engine *engine;
+  double option[ENGINE_MAX_OPTIONS];
+} engine_choice;
+
+// The engine with its default options.
+engine_choice engine_default_choice(const engine *e);
+
+// Seconds on the clock by which engines time themselves.
+double engine_clock(void);
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The analytic engine: the corrected equations of Franke, Suhr and Riess, integrated by SUNDIALS.
+#include "engine.h"
+#include "terminal/command.h"
+
+#include <bicycle/error.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sundials/sundials_version.h>
+
+enum { OPTION_METHOD, OPTION_RTOL, OPTION_ATOL, OPTION_STEP, OPTION_COUNT };
+
+static const char *const methods[] = {"rk8", "adams", "rk4", NULL};
+
+// As bike_default_ride_def, which says why.
+static const engine_option options[OPTION_COUNT] = {
+    [OPTION_METHOD] = {"method", "", methods, 0},
+    [OPTION_RTOL] = {"rtol", "", NULL, 1e-13},
+    [OPTION_ATOL] = {"atol", "", NULL, 1e-13},
+    [OPTION_STEP] = {"step", "s", NULL, 1e-3},
+};
+
+typedef struct analytic {
+  bike_model model;
+  bike_method method;
+  double rtol, atol, step;
+} analytic;
+
+static void *create(const bike_bicycle *bicycle, const double *option, term_exit *code,
+                    problem *p) {
+  static const bike_method method[] = {BIKE_METHOD_RK8, BIKE_METHOD_ADAMS, BIKE_METHOD_RK4};
+  analytic *a = calloc(1, sizeof *a);
+  if (!a) {
+    *code = problem_memory(p);
+    return NULL;
+  }
+  a->method = method[(int)option[OPTION_METHOD]];
+  a->rtol = option[OPTION_RTOL];
+  a->atol = option[OPTION_ATOL];
+  a->step = option[OPTION_STEP];
+  int error = bike_model_init(&a->model, bicycle);
+  if (error == BIKE_OK) return a;
+  *code = problem_set(p, term_exit_of(error), "%s", bike_error_string(error));
+  free(a);
+  return NULL;
+}
+
+static void version(char out[ENGINE_VERSION_SIZE]) {
+  char sundials[32];
+  if (SUNDIALSGetVersion(sundials, sizeof sundials) != 0) strcpy(sundials, "of unknown version");
+  snprintf(out, ENGINE_VERSION_SIZE, "libbicycle %s, SUNDIALS %s", term_version(), sundials);
+}
+
+static term_exit evaluate(engine_instant *out, void *instance, const bike_state *state,
+                          problem *p) {
+  const analytic *a = instance;
+  bike_snapshot s;
+  int error = bike_evaluate(&s, &a->model, state, &(bike_input){0});
+  if (error != BIKE_OK) return problem_set(p, term_exit_of(error), "%s", bike_error_string(error));
+  *out = (engine_instant){
+      .lean_acceleration = s.acceleration.lean,
+      .steer_acceleration = s.acceleration.steer,
+      .yaw_acceleration = s.yaw_acceleration,
+      .pitch_acceleration = s.pitch_acceleration,
+      .wheel_acceleration = {s.rear_wheel_acceleration, s.front_wheel_acceleration},
+      .speed_rate = s.acceleration.speed,
+      .yaw_rate = s.yaw_rate,
+      .pitch_rate = s.pitch_rate,
+      .wheel_rate = {s.rear_wheel_rate, s.front_wheel_rate},
+      .pitch = s.pitch,
+      .kinetic = s.kinetic,
+      .potential = s.potential,
+  };
+  memcpy(out->force[0], s.rear_force, sizeof out->force[0]);
+  memcpy(out->force[1], s.front_force, sizeof out->force[1]);
+  return TERM_DONE;
+}
+
+typedef struct recorder {
+  trace *out;
+  const engine_ride *ride;
+  bool lost;
+} recorder;
+
+static int record(const bike_sample *sample, const bike_sample_more *more, void *user) {
+  recorder *r = user;
+  trace_row row = {.sample = *sample, .more = *more};
+  r->lost = !trace_add(r->out, &row);
+  if (r->lost) return 1;
+  return r->ride->progress && !r->ride->progress(sample->time / r->ride->duration, r->ride->user);
+}
+
+static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
+  const analytic *a = instance;
+  recorder r = {out, asked, false};
+  bike_ride_def def = bike_default_ride_def();
+  def.start = asked->start;
+  def.duration = asked->duration;
+  def.sample = asked->sample;
+  def.method = a->method;
+  def.rtol = a->rtol;
+  def.atol = a->atol;
+  def.step = a->step;
+  def.lean_limit = asked->lean_limit;
+  def.on_sample = record;
+  def.user = &r;
+  bike_ride_result result;
+  double begun = engine_clock();
+  int error = bike_ride(&result, &a->model, &def);
+  out->wall_time = engine_clock() - begun;
+  if (r.lost) return problem_memory(p);
+  if (error != BIKE_OK)
+    return problem_set(p, term_exit_of(error), "%s (t = %g s)", bike_error_string(error),
+                       result.end_time);
+  trace_end(out, result.complete, result.end_time, result.events, result.event_count);
+  out->steps = result.steps;
+  return TERM_DONE;
+}
+
+const engine engine_analytic = {
+    .name = "analytic",
+    .summary = "the corrected equations of Franke, Suhr and Riess, integrated by SUNDIALS",
+    .options = options,
+    .option_count = OPTION_COUNT,
+    .create = create,
+    .free = free,
+    .version = version,
+    .evaluate = evaluate,
+    .ride = ride,
+};

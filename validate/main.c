@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// bicycle-validate: plays scenarios in two simulators and says whether they agree.
+#include "folder.h"
+#include "report.h"
+#include "suite.h"
+#include "terminal/command.h"
+#include "terminal/json.h"
+#include "terminal/table.h"
+
+#include <string.h>
+
+static const char example[] = "Example: bicycle validate\n"
+                              "         bicycle validate benchmark_m1 my.yml -o report --all\n"
+                              "         bicycle validate list\n";
+
+static const char documentation[] =
+    "Plays scenarios in two simulators, compares what comes out with the limits of the scenario, "
+    "prints the verdict and writes a report. SCENARIO is a file or the name of a shipped one; all "
+    "shipped ones without. `list` shows these.\v"
+    "Exit status: 0 the simulators agree; 1 they do not; 2 wrong usage or input; 3 a run is "
+    "invalid.";
+
+typedef struct arguments {
+  const char *output;
+  bool json, all;
+  char **scenarios; // of argv
+  int count;
+} arguments;
+
+enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL };
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  arguments *args = state->input;
+  switch (key) {
+  case 'o':
+    args->output = text;
+    return 0;
+  case KEY_JSON:
+    args->json = true;
+    return 0;
+  case KEY_ALL:
+    args->all = true;
+    return 0;
+  case ARGP_KEY_ARGS:
+    args->scenarios = state->argv + state->next;
+    args->count = state->argc - state->next;
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+static const struct argp_option options[] = {
+    {"output", 'o', "DIR", 0, "Folder of the report (./bicycle-report)", 1},
+    {"json", KEY_JSON, NULL, 0, "Print report.json instead of the tables", 1},
+    {"all", KEY_ALL, NULL, 0, "Show every gate, not only the closest ones", 1},
+    {0},
+};
+
+static void print(const report *r, const arguments *args, bool written) {
+  if (args->json) {
+    if (!term_json_write(report_document(r), stdout)) term_message("out of memory");
+    return;
+  }
+  report_print(r, args->all, stdout);
+  if (written) printf("Report: %s\n", args->output);
+}
+
+static term_exit publish(report *r, const arguments *args) {
+  problem p = {""};
+  term_exit code = report_write(r, args->output, &p);
+  print(r, args, code == TERM_DONE);
+  if (code != TERM_DONE) return term_fail(code, "%s", p.text);
+  return verdict_exit(report_verdict(r));
+}
+
+static term_exit validate(const arguments *args) {
+  problem p = {""};
+  suite s = {0};
+  report r = {0};
+  double begun = engine_clock();
+  if (!provenance_begin(&r.provenance, args->scenarios, args->count))
+    return term_fail(TERM_INVALID, "out of memory");
+  term_exit code = folder_check(args->output, &p); // before the work, not after it
+  if (code == TERM_DONE) {
+    code = suite_load(&s, args->scenarios, args->count, &p);
+    if (code == TERM_DONE) code = suite_play(&s, &p);
+  }
+  r.provenance.elapsed = engine_clock() - begun;
+  if (code == TERM_DONE) {
+    r.comparisons = s.comparisons;
+    r.count = s.count;
+    code = publish(&r, args);
+  } else {
+    code = term_fail(code, "%s", p.text);
+  }
+  suite_clear(&s);
+  provenance_clear(&r.provenance);
+  return code;
+}
+
+static void print_list(const suite *s) {
+  static const term_column columns[] = {
+      {"scenario", TERM_LEFT}, {"bicycle", TERM_LEFT}, {"title", TERM_LEFT}};
+  term_table *table = term_table_create(columns, 3);
+  for (size_t i = 0; i < s->count; i++)
+    term_table_add(table, TERM_PLAIN,
+                   (const char *const[]){s->scenarios[i].name, s->scenarios[i].bicycle_name,
+                                         s->scenarios[i].title});
+  term_table_print(table, stdout);
+  term_table_free(table);
+}
+
+static bool print_list_json(const suite *s) {
+  json_t *array = json_array();
+  for (size_t i = 0; i < s->count; i++)
+    json_array_append_new(array,
+                          json_pack("{s:s, s:s, s:s}", "name", s->scenarios[i].name, "bicycle",
+                                    s->scenarios[i].bicycle_name, "title", s->scenarios[i].title));
+  return term_json_write(array, stdout);
+}
+
+static term_exit list(const arguments *args) {
+  problem p = {""};
+  suite s = {0};
+  term_exit code = suite_load(&s, NULL, 0, &p);
+  if (code != TERM_DONE) return term_fail(code, "%s", p.text);
+  if (!args->json)
+    print_list(&s);
+  else if (!print_list_json(&s))
+    code = term_fail(TERM_INVALID, "out of memory");
+  suite_clear(&s);
+  return code;
+}
+
+int main(int argc, char **argv) {
+  static char name[] = "bicycle validate";
+  const struct argp argp = {options, parse, "[SCENARIO...]\nlist", documentation, NULL, NULL, NULL};
+  arguments args = {.output = "bicycle-report"};
+  term_begin(name);
+  argv[0] = name;
+  term_parse(&argp, example, argc, argv, &args);
+  if (args.count > 0 && strcmp(args.scenarios[0], "list") == 0) {
+    if (args.count > 1) term_usage("list: '%s' is one argument too many", args.scenarios[1]);
+    return list(&args);
+  }
+  return validate(&args);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "problem.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+term_exit problem_set(problem *p, term_exit code, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(p->text, sizeof p->text, format, arguments);
+  va_end(arguments);
+  return code;
+}
+
+term_exit problem_memory(problem *p) {
+  return problem_set(p, TERM_INVALID, "out of memory");
+}
+
+term_exit problem_prefix(problem *p, term_exit code, const char *prefix) {
+  problem whole = *p;
+  size_t length = strnlen(prefix, PROBLEM_SIZE / 2); // what went wrong matters more
+  snprintf(p->text, sizeof p->text, "%.*s: %.*s", (int)length, prefix,
+           (int)(PROBLEM_SIZE - length - 3), whole.text);
+  return code;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report for a person at a terminal.
+#include "report.h"
+
+#include "layer.h"
+#include "terminal/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Gates shown of a scenario that agrees, beside those that fail: enough to see what limits it.
+enum { SHOWN_GATES = 5, CELL = 48 };
+
+static size_t gate_total(const report *r) {
+  size_t total = 0;
+  for (size_t i = 0; i < r->count; i++) total += r->comparisons[i].gates.count;
+  return total;
+}
+
+static size_t failed_total(const report *r) {
+  size_t total = 0;
+  for (size_t i = 0; i < r->count; i++) total += gates_failed(&r->comparisons[i].gates);
+  return total;
+}
+
+static const char *plural(size_t count) {
+  return count == 1 ? "" : "s";
+}
+
+static void print_verdict(const report *r, FILE *stream) {
+  static const char *const words[] = {"AGREE", "FAIL", "INVALID"};
+  verdict v = report_verdict(r);
+  term_style style = v == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
+  size_t gates = gate_total(r), failed = failed_total(r);
+  const comparison *failure = report_first_failure(r);
+  fprintf(stream, "%s%s%s: %zu scenario%s, ", term_style_begin(stream, style), words[v],
+          term_style_end(stream, style), r->count, plural(r->count));
+  if (failed)
+    fprintf(stream, "%zu of %zu gates fail\n", failed, gates);
+  else
+    fprintf(stream, "all %zu gates hold\n", gates);
+  if (failure)
+    fprintf(stream, "First failure: %s, %s %s: %s\n", failure->scenario->name,
+            failure->first_failure->name, failure->first_failure->title, failure->cause);
+}
+
+// "12x" within the limit, "0.5x": beyond it.
+static void print_margin(char out[CELL], const gate *g) {
+  double use = gate_use(g);
+  if (use == 0)
+    snprintf(out, CELL, "exact");
+  else if (isinf(use))
+    snprintf(out, CELL, "-");
+  else
+    snprintf(out, CELL, "%.3gx", 1 / use);
+}
+
+static void add_row(term_table *table, const gate *g) {
+  char signal[MEASUREMENT_FULL_NAME], value[CELL], limit[CELL], margin[CELL], at[CELL] = "";
+  const char *space = *g->what.unit ? " " : "";
+  snprintf(value, sizeof value, "%.3g", g->what.value);
+  snprintf(limit, sizeof limit, "%.3g%s%s", g->rule->limit, space, g->what.unit);
+  print_margin(margin, g);
+  if (isfinite(g->what.time)) snprintf(at, sizeof at, "%.4g s", g->what.time);
+  term_table_add(table, g->pass ? TERM_PLAIN : TERM_BAD,
+                 (const char *const[]){"", g->what.layer, measurement_full_name(signal, &g->what),
+                                       g->what.metric, value, limit, margin, at});
+}
+
+static void print_gates(const comparison *c, bool all, FILE *stream) {
+  static const term_column columns[] = {
+      {"", TERM_LEFT},       {"layer", TERM_LEFT},  {"signal", TERM_LEFT},  {"metric", TERM_LEFT},
+      {"value", TERM_RIGHT}, {"limit", TERM_RIGHT}, {"margin", TERM_RIGHT}, {"at", TERM_RIGHT}};
+  const gate **sorted = gates_by_margin(&c->gates);
+  term_table *table = term_table_create(columns, 8);
+  size_t shown = gates_failed(&c->gates) + SHOWN_GATES;
+  if (all || shown > c->gates.count) shown = c->gates.count;
+  for (size_t i = 0; sorted && i < shown; i++) add_row(table, sorted[i]);
+  if (shown > 0) term_table_print(table, stream);
+  term_table_free(table);
+  free(sorted);
+}
+
+static void print_scenario(const comparison *c, bool all, FILE *stream) {
+  const scenario *s = c->scenario;
+  term_style style = c->verdict == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
+  fprintf(stream, "\n%s%s%s  %s: %s (%zu gate%s)\n", term_style_begin(stream, style),
+          verdict_string(c->verdict), term_style_end(stream, style), s->name, s->title,
+          c->gates.count, plural(c->gates.count));
+  if (c->first_failure)
+    fprintf(stream, "%s %s: %s\n", c->first_failure->name, c->first_failure->title, c->cause);
+  print_gates(c, all, stream);
+}
+
+void report_print(const report *r, bool all, FILE *stream) {
+  print_verdict(r, stream);
+  for (size_t i = 0; i < r->count; i++) print_scenario(&r->comparisons[i], all, stream);
+  if (!all)
+    fprintf(stream,
+            "\nOf each scenario the %d gates closest to their limits (all: --all); margin: "
+            "limit over value.\n",
+            SHOWN_GATES);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include "folder.h"
+#include "terminal/json.h"
+
+void report_file_names(char out[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME], const comparison *c) {
+  const char *const what[REPORT_FILES_PER_SCENARIO] = {c->side[REFERENCE].label,
+                                                       c->side[CANDIDATE].label, "residuals"};
+  for (int i = 0; i < REPORT_FILES_PER_SCENARIO; i++)
+    snprintf(out[i], REPORT_FILE_NAME, "%s-%s.csv", c->scenario->name, what[i]);
+}
+
+static void write_csv(const comparison *c, int which, FILE *stream) {
+  if (which < 2)
+    report_trace_csv(&c->side[which].trace, stream);
+  else
+    report_residual_csv(c, stream);
+}
+
+static term_exit write_scenario(const folder *f, const comparison *c, problem *p) {
+  char names[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME];
+  term_exit code = TERM_DONE;
+  report_file_names(names, c);
+  for (int i = 0; i < REPORT_FILES_PER_SCENARIO && code == TERM_DONE; i++) {
+    FILE *stream = folder_open(f, names[i], p);
+    if (!stream) return TERM_USAGE;
+    write_csv(c, i, stream);
+    code = folder_close(f, stream, names[i], p);
+  }
+  return code;
+}
+
+static term_exit write_document(const folder *f, const report *r, problem *p) {
+  static const char name[] = "report.json";
+  FILE *stream = folder_open(f, name, p);
+  if (!stream) return TERM_USAGE;
+  bool written = term_json_write(report_document(r), stream);
+  term_exit code = folder_close(f, stream, name, p);
+  if (code != TERM_DONE || written) return code;
+  return problem_memory(p);
+}
+
+term_exit report_write(const report *r, const char *path, problem *p) {
+  folder f;
+  term_exit code = folder_begin(&f, path, p);
+  if (code != TERM_DONE) return code;
+  for (size_t i = 0; i < r->count && code == TERM_DONE; i++)
+    code = write_scenario(&f, &r->comparisons[i], p);
+  if (code == TERM_DONE) code = write_document(&f, r, p);
+  if (code == TERM_DONE) return folder_commit(&f, p);
+  folder_abort(&f);
+  return problem_prefix(p, code, path);
+}

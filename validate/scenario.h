@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario: what is ridden, by which engines, and what must come out. Read from YAML; the keys
+// are explained in README.md.
+#ifndef VALIDATE_SCENARIO_H
+#define VALIDATE_SCENARIO_H
+
+#include "engine.h"
+#include "measurement.h"
+
+#include <stdint.h>
+
+struct layer;
+
+enum {
+  SCENARIO_NAME = 64,
+  SCENARIO_TITLE = 160,
+  SCENARIO_PATH = 4096, // PATH_MAX of Linux
+  GATE_REASON = 400,
+  GATE_MAX_SIGNALS = 16
+};
+
+// A limit on one metric of some signals. It holds for what all engines measured under that name.
+typedef struct gate_rule {
+  const struct layer *layer;                        //
+  char metric[MEASUREMENT_NAME];                    //
+  char signals[GATE_MAX_SIGNALS][MEASUREMENT_NAME]; //
+  int signal_count;                                 // 0: all signals of the layer
+  double limit;                                     // >= 0, of the measurement's unit
+  char reason[GATE_REASON];                         // why the limit has its value
+} gate_rule;
+
+typedef struct gate_rules {
+  gate_rule *items;
+  size_t count, room;
+} gate_rules;
+
+// Random states of L0, uniform within these ranges, the same for the same seed on every machine.
+typedef struct scenario_instants {
+  int count;          // beside the start state
+  uint64_t seed;      //
+  double lean, steer; // rad    at most, either side
+  double rate;        // rad/s  of both, at most, either side
+  double slow, fast;  // m/s    speed
+} scenario_instants;
+
+// By how much two rides that differ slightly may part: exp(rate t).
+typedef struct scenario_growth {
+  bool unstable_mode; // the rate is the largest real part of the eigenvalues of upright riding at
+                      // the start speed
+  double rate;        // 1/s  otherwise
+} scenario_growth;
+
+typedef struct scenario {
+  char name[SCENARIO_NAME];           // the file's name without .yml
+  char path[SCENARIO_PATH];           //
+  char title[SCENARIO_TITLE];         //
+  char bicycle_name[SCENARIO_PATH];   // as the file names it
+  bike_bicycle bicycle;               //
+  bike_model model;                   //
+  bike_state start;                   //
+  double duration, sample;            // s
+  scenario_growth growth;             //
+  scenario_instants instants;         //
+  engine_choice reference, candidate; //
+  gate_rules rules;                   // where several fit a measurement, the last one judges it
+} scenario;
+
+// Reads a scenario and the files it names. TERM_USAGE with "path:line: key: what", or TERM_INVALID
+// without memory; `out` need not be cleared then.
+term_exit scenario_read(scenario *out, const char *path, problem *p);
+void scenario_clear(scenario *s);
+
+// Path of a scenario on a command line: a file, or the name of a shipped one.
+term_exit scenario_find(char out[SCENARIO_PATH], const char *given, problem *p);
+
+// Paths of the shipped scenarios by name; free each and the list.
+term_exit scenario_list(char ***out, size_t *count, problem *p);
+
+#endif

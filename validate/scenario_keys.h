@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readers of the parts of a scenario file, for the YAML reader of src/files.
+#ifndef VALIDATE_SCENARIO_KEYS_H
+#define VALIDATE_SCENARIO_KEYS_H
+
+#include "scenario.h"
+
+#include "files/yaml.h"
+
+// Where a file is read into; `here` is its path, from which other paths are relative.
+typedef struct scenario_draft {
+  scenario *out;
+  const char *here;
+} scenario_draft;
+
+bike_value_reader scenario_read_engine; // engine_choice
+bike_value_reader scenario_read_gates;  // gate_rules
+
+// Rules of a file that holds `gates:` and nothing else.
+int scenario_include_gates(gate_rules *out, const char *path, bike_file_error *error);
+
+// "folder of `from`/name", or `name` itself where it is absolute; false when too long.
+bool scenario_relative_path(char out[SCENARIO_PATH], const char *from, const char *name);
+
+#endif
