@@ -121,27 +121,27 @@ static int check_plain(const bike_yaml *yaml, bike_field where, int depth) {
 }
 
 // libfyaml's own complaint, or ours where it has none.
-static int parse_error(const bike_yaml *yaml, struct fy_diag *diag) {
+static int parse_error(const bike_yaml *yaml) {
   void *cursor = NULL;
-  const struct fy_diag_error *first = fy_diag_errors_iterate(diag, &cursor);
+  const struct fy_diag_error *first = fy_diag_errors_iterate(yaml->diagnostics, &cursor);
   if (!first)
     return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, 0, NULL, "is not YAML");
   return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first->line, NULL, first->msg);
 }
 
-// A parser that collects errors in `diag` and leaves keys given twice to bike_yaml_read: its own
-// check takes time with the square of their number.
-static struct fy_parser *create_parser(struct fy_diag *diag, const bike_text *text) {
+// A parser that collects errors in `diagnostics` and leaves keys given twice to bike_yaml_read: its
+// own check takes time with the square of their number.
+static struct fy_parser *create_parser(struct fy_diag *diagnostics, const bike_text *text) {
   const struct fy_parse_cfg configuration = {.flags = FYPCF_JSON_NONE | FYPCF_ALLOW_DUPLICATE_KEYS,
-                                             .diag = diag};
+                                             .diag = diagnostics};
   struct fy_parser *parser = fy_parser_create(&configuration);
   if (!parser || fy_parser_set_string(parser, text->data, text->size) == 0) return parser;
   fy_parser_destroy(parser);
   return NULL;
 }
 
-static int check_document(bike_yaml *yaml, struct fy_diag *diag) {
-  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml, diag);
+static int check_document(bike_yaml *yaml) {
+  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml);
   yaml->root = yaml->document ? fy_document_root(yaml->document) : NULL;
   if (!yaml->root) return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX, "the file is empty");
   struct fy_document *second = fy_parse_load_document(yaml->parser);
@@ -149,38 +149,37 @@ static int check_document(bike_yaml *yaml, struct fy_diag *diag) {
     fy_parse_document_destroy(yaml->parser, second);
     return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX, "more than one YAML document");
   }
-  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml, diag);
+  if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml);
   if (!fy_node_is_mapping(yaml->root))
     return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first_line(yaml->root, 1),
                            NULL, "must hold `key: value` pairs");
   return check_plain(yaml, (bike_field){"", 1, yaml->root}, 0);
 }
 
-int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,
-                   bike_file_error *error) {
-  *out = (bike_yaml){.path = path, .error = error};
+// Collects errors: a library does not print.
+static struct fy_diag *create_diagnostics(void) {
   struct fy_diag_cfg configuration;
   fy_diag_cfg_default(&configuration);
-  configuration.fp = NULL; // a library does not print
-  struct fy_diag *diag = fy_diag_create(&configuration);
-  if (diag) {
-    fy_diag_set_collect_errors(diag, true);
-    out->parser = create_parser(diag, text);
-  }
-  int code = BIKE_ERROR_MEMORY;
-  if (out->parser) {
-    out->document = fy_parse_load_document(out->parser);
-    code = check_document(out, diag);
-  } else {
-    bike_message(error, code, "%s: out of memory", path);
-  }
-  if (diag) fy_diag_unref(diag);
-  return code;
+  configuration.fp = NULL;
+  struct fy_diag *diagnostics = fy_diag_create(&configuration);
+  if (diagnostics) fy_diag_set_collect_errors(diagnostics, true);
+  return diagnostics;
+}
+
+int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,
+                   bike_file_error *error) {
+  *out = (bike_yaml){.path = path, .error = error, .diagnostics = create_diagnostics()};
+  if (out->diagnostics) out->parser = create_parser(out->diagnostics, text);
+  if (!out->parser) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
+  out->document = fy_parse_load_document(out->parser);
+  return check_document(out);
 }
 
 void bike_yaml_close(bike_yaml *yaml) {
   if (yaml->document) fy_parse_document_destroy(yaml->parser, yaml->document);
   if (yaml->parser) fy_parser_destroy(yaml->parser);
+  // last, and not fy_diag_unref: only so does libfyaml free the errors it collected
+  if (yaml->diagnostics) fy_diag_destroy(yaml->diagnostics);
   *yaml = (bike_yaml){0};
 }
 

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct fy_diag;
 struct fy_document;
 struct fy_node;
 struct fy_parser;
@@ -20,6 +21,7 @@ struct fy_parser;
 typedef struct bike_yaml {
   const char *path;             // as the user gave it; the caller's
   bike_file_error *error;       // where messages go; may be NULL
+  struct fy_diag *diagnostics;  // libfyaml's complaints
   struct fy_parser *parser;     //
   struct fy_document *document; //
   struct fy_node *root;         // a mapping

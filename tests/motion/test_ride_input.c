@@ -105,7 +105,7 @@ static void jumps_are_met_exactly(void **state) {
     assert_below(state_gap(&whole, &pieces), 1e-12);
     assert_true(fabs(whole.lean) > 1e-3);
     assert_true(p.first >= 0 && p.last <= 3);
-    assert_below(energy_drift(&t), 1e-13);
+    assert_below(energy_drift(&t), method == BIKE_METHOD_RK8 ? 1e-13 : 1e-12);
     trace_free(&t);
   }
 }
