@@ -5,7 +5,7 @@
 // the ground in one point whose velocity is zero: three constraints a disc, solved together in
 // mjcb_control, where every force of MuJoCo's forward pass is known, and added to qfrc_passive as
 // generalised forces. The constraint is kept on the level of accelerations and pulled back to the
-// ground at 10 rad/s (Baumgarte), so that integration errors do not pile up.
+// ground at 5 rad/s (Baumgarte), so that integration errors do not pile up.
 //
 // The model says which discs roll:
 //

@@ -19,3 +19,17 @@ add_library(mujoco_runner STATIC
 target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(mujoco_runner
   PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE bicycle_options m)
+
+# Start states and what becomes of rows are those of `bicycle ride`.
+add_executable(bicycle-mujoco
+  main.c
+  cmd_mjcf.c
+  cmd_model.c
+  cmd_ride.c
+  cmd_ride_options.c
+  ${PROJECT_SOURCE_DIR}/src/cli/ride_record.c
+  ${PROJECT_SOURCE_DIR}/src/cli/start.c)
+target_link_libraries(bicycle-mujoco PRIVATE mujoco_runner terminal bicycle::bicycle bicycle_options)
+set_target_properties(bicycle-mujoco PROPERTIES
+  INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS bicycle-mujoco RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -111,7 +111,8 @@ static void write_head(FILE *stream, const bike_bicycle *bicycle) {
         stream);
   write_quoted(stream, bicycle->name);
   const bike_part *rider = rider_of(bicycle);
-  fprintf(stream, "\nrider: %s\n", rider ? "true" : "false");
+  // without a rider of its own B may still hold one: the benchmark's does
+  fprintf(stream, "\nrider: %s\n", rider ? "true" : "null");
   if (rider) {
     fputs("rider_share: # mass and place of the rider within B\n", stream);
     write_number(stream, "mP", rider->mass);

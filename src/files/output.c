@@ -20,7 +20,8 @@ enum {
 };
 
 static const char *shown(const bike_output *out) {
-  return out->target ? out->target : "output";
+  if (out->target) return out->target;
+  return out->stream == stdout ? "standard output" : "output";
 }
 
 static int fail(const char *path, int number, bike_file_error *error) {
@@ -143,13 +144,21 @@ static int flush(FILE *stream) {
   return failed ? EIO : 0;
 }
 
-int bike_output_commit(bike_output *out, bike_file_error *error) {
-  if (!out->stream) return bike_message(error, BIKE_ERROR_ARGUMENT, "no output was begun");
+// Flushes, names and closes the stream. Returns 0 or errno.
+static int finish(bike_output *out) {
   int number = flush(out->stream);
   if (!number && out->target && !out->named) number = link_temporary(out);
-  if (out->stream != stdout && fclose(out->stream) != 0 && !number) number = errno;
-  out->stream = NULL;
+  if (out->stream != stdout) {
+    if (fclose(out->stream) != 0 && !number) number = errno;
+    out->stream = NULL;
+  }
   if (!number && out->target && rename(out->temporary, out->target) != 0) number = errno;
+  return number;
+}
+
+int bike_output_commit(bike_output *out, bike_file_error *error) {
+  if (!out->stream) return bike_message(error, BIKE_ERROR_ARGUMENT, "no output was begun");
+  const int number = finish(out);
   if (!number) {
     release(out);
     return BIKE_OK;

@@ -110,7 +110,7 @@ static void other_readers(void **state) {
   assert_int_equal(bike_file_write(&bicycle, scratch_path("written.yml"), NULL), BIKE_OK);
   char *text = scratch_read(scratch_path("written.yml"));
   assert_non_null(strstr(text, "\nparameterization: Meijaard2007\n"));
-  assert_non_null(strstr(text, "\nrider: false\n"));
+  assert_non_null(strstr(text, "\nrider: null\n"));
   assert_non_null(strstr(text, "  v: 1.0"));
   assert_non_null(strstr(text, "  mB: 85.0\n"));
   assert_non_null(strstr(text, "  IRxx: 1.0000000000000001e-05\n"));
