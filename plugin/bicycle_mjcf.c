@@ -6,7 +6,7 @@
 
 void mjcf_put(FILE *out, const char *name, const double *values, int count) {
   fprintf(out, " %s=\"", name);
-  for (int k = 0; k < count; k++) fprintf(out, "%s%.17g", k ? " " : "", values[k]);
+  for (int k = 0; k < count; k++) fprintf(out, "%s%.17g", k ? " " : "", values[k] + 0.0); // no "-0"
   fputc('"', out);
 }
 
@@ -14,11 +14,20 @@ void mjcf_put(FILE *out, const char *name, const double *values, int count) {
 static void put_escaped(FILE *out, const char *text) {
   for (; *text; text++) {
     switch (*text) {
-    case '&': fputs("&amp;", out); break;
-    case '<': fputs("&lt;", out); break;
-    case '>': fputs("&gt;", out); break;
-    case '"': fputs("&quot;", out); break;
-    default: fputc((unsigned char)*text < ' ' ? '?' : *text, out);
+    case '&':
+      fputs("&amp;", out);
+      break;
+    case '<':
+      fputs("&lt;", out);
+      break;
+    case '>':
+      fputs("&gt;", out);
+      break;
+    case '"':
+      fputs("&quot;", out);
+      break;
+    default:
+      fputc((unsigned char)*text < ' ' ? '?' : *text, out);
     }
   }
 }
@@ -30,15 +39,17 @@ static void put_header(FILE *out, const mjcf_plan *plan) {
         "     positive; the speed of the rear contact is R_r (pitch' + rear_spin').\n",
         out);
   if (plan->options->rolling == MJCF_ROLLING_EXACT)
-    fputs("     The wheels roll where libmujoco_rolling.so is loaded; elsewhere they fall through.\n",
-          out);
+    fputs(
+        "     The wheels roll where libmujoco_rolling.so is loaded; elsewhere they fall through.\n",
+        out);
   for (int i = 0; i < MJCF_BODIES; i++) {
     if (!plan->body[i].placeholder) continue;
     if (!any)
-      fputs("     PLACEHOLDERS: MJCF refuses the inertia of some bodies. Other programs see a legal\n"
-            "     stand-in; `bicycle mujoco` puts in the exact tensor of the numeric of that name:\n"
-            "    ",
-            out);
+      fputs(
+          "     PLACEHOLDERS: MJCF refuses the inertia of some bodies. Other programs see a legal\n"
+          "     stand-in; `bicycle mujoco` puts in the exact tensor of the numeric of that name:\n"
+          "    ",
+          out);
     fprintf(out, " inertia:%s", plan->body[i].name);
     any = true;
   }
@@ -115,13 +126,12 @@ static void close_body(FILE *out, bike_assembly assembly) {
 }
 
 static void put_root_joints(FILE *out, mjcf_root root) {
-  static const char *const hinges =
-      "      <joint name=\"x\" type=\"slide\" axis=\"1 0 0\"/>\n"
-      "      <joint name=\"y\" type=\"slide\" axis=\"0 1 0\"/>\n"
-      "      <joint name=\"z\" type=\"slide\" axis=\"0 0 1\"/>\n"
-      "      <joint name=\"yaw\" type=\"hinge\" axis=\"0 0 1\"/>\n"
-      "      <joint name=\"roll\" type=\"hinge\" axis=\"1 0 0\"/>\n"
-      "      <joint name=\"pitch\" type=\"hinge\" axis=\"0 1 0\"/>\n";
+  static const char *const hinges = "      <joint name=\"x\" type=\"slide\" axis=\"1 0 0\"/>\n"
+                                    "      <joint name=\"y\" type=\"slide\" axis=\"0 1 0\"/>\n"
+                                    "      <joint name=\"z\" type=\"slide\" axis=\"0 0 1\"/>\n"
+                                    "      <joint name=\"yaw\" type=\"hinge\" axis=\"0 0 1\"/>\n"
+                                    "      <joint name=\"roll\" type=\"hinge\" axis=\"1 0 0\"/>\n"
+                                    "      <joint name=\"pitch\" type=\"hinge\" axis=\"0 1 0\"/>\n";
   fputs(root == MJCF_ROOT_FREE ? "      <freejoint name=\"root\"/>\n" : hinges, out);
 }
 

@@ -4,6 +4,7 @@
 #include "runner_guard.h"
 
 #include <bicycle/error.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -52,7 +53,7 @@ mjModel *mjcf_compile(const char *text, mjcf_error *error) {
   static const char name[] = "bicycle.xml";
   size_t size = strlen(text);
   if (size == 0) return mjcf_fail(error, "the text is empty"), NULL; // MuJoCo would end the program
-  mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs); // 2 MB: too large for a stack
+  mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs);                         // 2 MB: too large for a stack
   mjModel *model = NULL;
   if (vfs) {
     mj_defaultVFS(vfs);
@@ -73,8 +74,8 @@ mjModel *mjcf_compile(const char *text, mjcf_error *error) {
 
 mjModel *mjcf_load(const char *path, mjcf_error *error) {
   struct stat about;
-  if (stat(path, &about) != 0 || !S_ISREG(about.st_mode))
-    return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_FILE)), NULL;
+  if (stat(path, &about) != 0) return mjcf_fail(error, "%s", strerror(errno)), NULL;
+  if (!S_ISREG(about.st_mode)) return mjcf_fail(error, "not a file"), NULL;
   size_t length = strlen(path);
   bool binary = length >= 4 && strcmp(path + length - 4, ".mjb") == 0;
   load l = {.path = path};

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tensors between the bicycle, which takes any positive semidefinite one, and MuJoCo, whose compiler
-// takes only those of extended bodies but whose dynamics work with any.
+// Tensors between the bicycle, which takes any positive semidefinite one, and MuJoCo, whose
+// compiler takes only those of extended bodies but whose dynamics work with any.
 #include "bicycle_mjcf_internal.h"
 
 #include <math.h>
 #include <string.h>
 
-// Ten times what MuJoCo demands of a moving body (mjMINVAL = 1e-15), kg m^2: only ever a placeholder.
+// Ten times what MuJoCo demands of a moving body (mjMINVAL = 1e-15), kg m^2: only ever a
+// placeholder.
 static const double least_moment = 1e-14;
 
 static const char numeric_prefix[] = "inertia:";
@@ -42,7 +43,8 @@ static void diagonalise(double moments[3], double V[9], const double inertia[6])
   double A[9];
   unpack(A, inertia);
   memcpy(V, unit, sizeof unit);
-  // Jacobi's method converges quadratically: 3 x 3 needs five sweeps for the last bit, ten are safe.
+  // Jacobi's method converges quadratically: 3 x 3 needs five sweeps for the last bit, ten are
+  // safe.
   for (int sweep = 0; sweep < 10; sweep++) {
     rotate(A, V, 0, 1);
     rotate(A, V, 0, 2);
@@ -94,8 +96,8 @@ static bool is_semidefinite(const double inertia[6]) {
   return least >= -1e-12 * largest;
 }
 
-// MuJoCo takes a frame that the compiler found equal to the principal axes for these axes, which have
-// now turned.
+// MuJoCo takes a frame that the compiler found equal to the principal axes for these axes, which
+// have now turned.
 static void forget_same_frames(mjModel *model, int body) {
   enum { EQUALS_PRINCIPAL_AXES = 2 };
   model->body_sameframe[body] = 0;

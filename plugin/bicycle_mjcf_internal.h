@@ -26,8 +26,8 @@ typedef struct mjcf_plan {
   const bike_bicycle *bicycle;
   const mjcf_options *options;
   bike_upright upright;
-  double axis[3];      // unit, upwards along the steering axis (e_S)
-  double across[3];    // unit, forwards and square to it in the plane of symmetry (e_p)
+  double axis[3];   // unit, upwards along the steering axis (e_S)
+  double across[3]; // unit, forwards and square to it in the plane of symmetry (e_p)
   mjcf_body body[MJCF_BODIES];
 } mjcf_plan;
 

@@ -38,10 +38,10 @@ static const char scenery[] =
     "    <light name=\"sky\" directional=\"true\" pos=\"0 0 6\" dir=\"-0.3 -0.3 -1\""
     " castshadow=\"false\" diffuse=\"0.35 0.37 0.40\"/>\n";
 
-static const char cameras[] =
-    "      <camera name=\"side\" mode=\"trackcom\" pos=\"0.5 -3.2 0.75\" xyaxes=\"1 0 0 0 0.07 1\"/>\n"
-    "      <camera name=\"behind\" mode=\"trackcom\" pos=\"-3 -1.4 1.4\""
-    " xyaxes=\"0.42 -0.91 0 0.18 0.08 0.98\"/>\n";
+static const char cameras[] = "      <camera name=\"side\" mode=\"trackcom\" pos=\"0.5 -3.7 1.0\" "
+                              "xyaxes=\"1 0 0 0 0.05 1\"/>\n"
+                              "      <camera name=\"behind\" mode=\"trackcom\" pos=\"-3 -1.4 1.4\""
+                              " xyaxes=\"0.42 -0.91 0 0.18 0.08 0.98\"/>\n";
 
 void mjcf_put_assets(FILE *out) {
   fputs(assets, out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bicycle looks like. Nothing here weighs, touches or takes part in any equation: it is drawn
-// around the lengths that do, so that any geometry is recognisable.
+// What a bicycle looks like. Nothing here weighs, touches or takes part in any equation: it is
+// drawn around the lengths that do, so that any geometry is recognisable.
 #include "bicycle_mjcf_internal.h"
 
 #include <math.h>
@@ -61,10 +61,11 @@ static void tube(const pen *p, point a, point b, double radius, const char *mate
   put_segment(p, "capsule", a, b, radius, material);
 }
 
-static void tube_pair(const pen *p, point a, point b, double apart, double radius,
-                      const char *material) {
-  tube(p, aside(a, apart / 2), aside(b, apart / 2), radius, material);
-  tube(p, aside(a, -apart / 2), aside(b, -apart / 2), radius, material);
+// Two tubes side by side, `apart` at a and `apart_at_b` at b.
+static void tube_pair(const pen *p, point a, point b, double apart, double apart_at_b,
+                      double radius, const char *material) {
+  tube(p, aside(a, apart / 2), aside(b, apart_at_b / 2), radius, material);
+  tube(p, aside(a, -apart / 2), aside(b, -apart_at_b / 2), radius, material);
 }
 
 static void ball(const pen *p, point c, double radius, const char *material) {
@@ -87,12 +88,12 @@ static void draw_wheel(const pen *p, double radius) {
   // The middle of each straight segment lies inside the circle by the factor cos(half its angle).
   double ring = (radius - tyre) / cos(turn / SEGMENTS / 2);
   for (int i = 0; i < SEGMENTS; i++)
-    tube(p, on_circle(hub, ring, turn * i / SEGMENTS), on_circle(hub, ring, turn * (i + 1) / SEGMENTS),
-         tyre, i == 0 ? "mark" : "rubber");
+    tube(p, on_circle(hub, ring, turn * i / SEGMENTS),
+         on_circle(hub, ring, turn * (i + 1) / SEGMENTS), tyre, i == 0 ? "mark" : "rubber");
   for (int i = 0; i < SPOKES; i++) {
     double angle = turn * i / SPOKES, side = i % 2 ? 0.03 : -0.03;
-    tube(p, aside(on_circle(hub, 0.025, angle), side), on_circle(hub, radius - 2 * tyre, angle), 0.002,
-         "metal");
+    tube(p, aside(on_circle(hub, 0.025, angle), side), on_circle(hub, radius - 2 * tyre, angle),
+         0.002, "metal");
   }
   put_segment(p, "cylinder", aside(hub, 0.05), aside(hub, -0.05), 0.022, "metal");
 }
@@ -104,13 +105,13 @@ typedef struct skeleton {
   double wheelbase;
   double R_r, R_f;
   point rear_hub, front_hub;
-  point crown;        // on the steering axis, just clear of the front wheel
-  point head;         // top of the head tube
-  point bar;          // where the handlebar crosses
-  point seat;         // top of the saddle
-  point crank;        // bottom bracket
-  bool high_wheel;    // penny-farthing: cranks on the front hub, a backbone around the wheel
-  bool recumbent;     // the rider lies low, feet forward
+  point crown;     // on the steering axis, just clear of the front wheel
+  point head;      // top of the head tube
+  point bar;       // where the handlebar crosses
+  point seat;      // top of the saddle
+  point crank;     // bottom bracket
+  bool high_wheel; // penny-farthing: cranks on the front hub, a backbone around the wheel
+  bool recumbent;  // the rider lies low, feet forward
 } skeleton;
 
 static const bike_part *find_rider(const bike_bicycle *bicycle) {
@@ -151,7 +152,8 @@ static skeleton find_skeleton(const mjcf_plan *plan) {
 
 static void draw_saddle(const pen *p, point seat) {
   tube(p, aside(on(seat.f - 0.09, 0, seat.u), 0.05), on(seat.f + 0.13, 0, seat.u), 0.022, "saddle");
-  tube(p, aside(on(seat.f - 0.09, 0, seat.u), -0.05), on(seat.f + 0.13, 0, seat.u), 0.022, "saddle");
+  tube(p, aside(on(seat.f - 0.09, 0, seat.u), -0.05), on(seat.f + 0.13, 0, seat.u), 0.022,
+       "saddle");
 }
 
 static void draw_cranks(const pen *p, point c) {
@@ -171,8 +173,8 @@ static void draw_diamond(const pen *p, const skeleton *s) {
   tube(p, s->crank, low, 0.019, "frame");
   tube(p, s->crank, post, 0.016, "frame");
   tube(p, post, s->seat, 0.013, "metal");
-  tube_pair(p, s->rear_hub, s->crank, 0.10, 0.009, "frame");
-  tube_pair(p, s->rear_hub, post, 0.10, 0.008, "frame");
+  tube_pair(p, s->rear_hub, s->crank, 0.10, 0.05, 0.009, "frame");
+  tube_pair(p, s->rear_hub, post, 0.10, 0.03, 0.008, "frame");
   draw_cranks(p, s->crank);
 }
 
@@ -183,11 +185,11 @@ static void draw_recumbent(const pen *p, const skeleton *s) {
   tube(p, s->crown, s->head, 0.022, "frame");
   tube(p, under, between(s->crown, s->head, 0.3), 0.024, "frame");
   tube(p, between(under, s->crown, 0.5), s->crank, 0.018, "frame");
-  tube_pair(p, s->rear_hub, under, 0.10, 0.012, "frame");
-  tube_pair(p, s->rear_hub, between(s->seat, back, 0.7), 0.10, 0.009, "frame");
+  tube_pair(p, s->rear_hub, under, 0.10, 0.03, 0.012, "frame");
+  tube_pair(p, s->rear_hub, between(s->seat, back, 0.7), 0.10, 0.10, 0.009, "frame");
   for (int i = -1; i <= 1; i++) {
-    tube(p, on(s->seat.f + 0.26, 0.1 * i, s->seat.u + 0.03), on(s->seat.f, 0.1 * i, s->seat.u), 0.035,
-         "saddle");
+    tube(p, on(s->seat.f + 0.26, 0.1 * i, s->seat.u + 0.03), on(s->seat.f, 0.1 * i, s->seat.u),
+         0.035, "saddle");
     tube(p, on(s->seat.f, 0.1 * i, s->seat.u), aside(back, 0.1 * i), 0.035, "saddle");
   }
   draw_cranks(p, s->crank);
@@ -213,7 +215,7 @@ static void draw_backbone(const pen *p, const skeleton *s) {
   }
   point fork = between(from, s->rear_hub, 0.25);
   tube(p, from, fork, 0.014, "frame");
-  tube_pair(p, fork, s->rear_hub, 0.07, 0.010, "frame");
+  tube_pair(p, fork, s->rear_hub, 0.02, 0.07, 0.010, "frame");
   tube(p, s->crown, s->head, 0.024, "frame");
   tube(p, s->head, s->seat, 0.010, "metal");
 }
@@ -246,7 +248,8 @@ static void draw_rider(const pen *p, const skeleton *s, double left) {
     tube(p, arm, elbow, 0.040, "shirt");
     tube(p, elbow, hand, 0.032, "skin");
     point foot = on(c.f - 0.16 * side, 0.12 * side, c.u + 0.05 * side + 0.05);
-    draw_leg(p, aside(hip, 0.09 * side), foot, s->recumbent ? 0.02 : 0.16, s->recumbent ? 0.16 : 0.08);
+    draw_leg(p, aside(hip, 0.09 * side), foot, s->recumbent ? 0.02 : 0.16,
+             s->recumbent ? 0.16 : 0.08);
   }
 }
 
@@ -265,7 +268,7 @@ static void draw_rear_frame(const pen *p, const skeleton *s) {
 // Fork, stem and a handlebar that reaches back to the rider's hands.
 static void draw_front_frame(const pen *p, const skeleton *s) {
   double half = 0.26, axle = s->high_wheel ? 0.14 : 0.11;
-  tube_pair(p, s->front_hub, s->crown, axle, s->high_wheel ? 0.014 : 0.011, "fork");
+  tube_pair(p, s->front_hub, s->crown, axle, axle, s->high_wheel ? 0.014 : 0.011, "fork");
   tube(p, aside(s->crown, axle / 2), aside(s->crown, -axle / 2), 0.016, "fork");
   tube(p, s->crown, s->bar, 0.014, "metal");
   tube(p, aside(s->bar, half), aside(s->bar, -half), 0.012, "metal");
@@ -279,9 +282,17 @@ void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body) {
   const pen p = {out, plan, body};
   skeleton s = find_skeleton(plan);
   switch (body) {
-  case BIKE_REAR_FRAME: draw_rear_frame(&p, &s); break;
-  case BIKE_FRONT_FRAME: draw_front_frame(&p, &s); break;
-  case BIKE_REAR_WHEEL: draw_wheel(&p, s.R_r); break;
-  case BIKE_FRONT_WHEEL: draw_wheel(&p, s.R_f); break;
+  case BIKE_REAR_FRAME:
+    draw_rear_frame(&p, &s);
+    break;
+  case BIKE_FRONT_FRAME:
+    draw_front_frame(&p, &s);
+    break;
+  case BIKE_REAR_WHEEL:
+    draw_wheel(&p, s.R_r);
+    break;
+  case BIKE_FRONT_WHEEL:
+    draw_wheel(&p, s.R_f);
+    break;
   }
 }

@@ -130,7 +130,8 @@ runner_status runner_start_at_keyframe(runner *r, mjcf_error *error) {
   guard_call(&report, load_key, &s);
   double residual = report.failed ? NAN : runner_residual(r, r->ride);
   if (!(residual <= RUNNER_START_TOLERANCE)) {
-    mjcf_fail(error, "keyframe 'test': the wheels do not stand and roll on the ground (off by %.3g)",
+    mjcf_fail(error,
+              "keyframe 'test': the wheels do not stand and roll on the ground (off by %.3g)",
               residual);
     return RUNNER_START;
   }

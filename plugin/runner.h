@@ -58,22 +58,22 @@ mjData *runner_data(runner *r);
 // What MuJoCo says of one instant. Index 0: rear, 1: front wheel. Forces of the ground on the
 // wheel along (e_R of the rear wheel, horizontal left of it, up), N.
 typedef struct runner_instant {
-  double x, y;                 // m      rear contact point
-  double yaw, lean, pitch;     // rad    yaw is continuous during a ride
-  double steer;                // rad
+  double x, y;                                        // m      rear contact point
+  double yaw, lean, pitch;                            // rad    yaw is continuous during a ride
+  double steer;                                       // rad
   double yaw_rate, lean_rate, pitch_rate, steer_rate; // rad/s
-  double speed;                // m/s    of the rear contact point along its track
-  double wheel_angle[2];       // rad    hinges, rolling forward positive
-  double wheel_rate[2];        // rad/s
+  double speed;          // m/s    of the rear contact point along its track
+  double wheel_angle[2]; // rad    hinges, rolling forward positive
+  double wheel_rate[2];  // rad/s
   double yaw_acceleration, lean_acceleration, pitch_acceleration, steer_acceleration; // rad/s^2
-  double speed_rate;           // m/s^2
-  double wheel_acceleration[2]; // rad/s^2
-  double kinetic, potential;   // J      zero potential with every mass at the ground
-  double power;                // W      of steer torque, roll torque and damper
-  double force[2][3];          // N
-  double slip[2];              // m/s    horizontal speed of the wheel's material at its contact
-  double height[2];            // m      of the lowest point of the disc above the ground
-  double height_rate[2];       // m/s
+  double speed_rate;                                                                  // m/s^2
+  double wheel_acceleration[2];                                                       // rad/s^2
+  double kinetic, potential; // J      zero potential with every mass at the ground
+  double power;              // W      of steer torque, roll torque and damper
+  double force[2][3];        // N
+  double slip[2];            // m/s    horizontal speed of the wheel's material at its contact
+  double height[2];          // m      of the lowest point of the disc above the ground
+  double height_rate[2];     // m/s
 } runner_instant;
 
 // The instant at a state: x = y = yaw = wheel angles = 0. `input` may be NULL: hands off. Does not
@@ -96,18 +96,18 @@ runner_status runner_measure(runner_instant *out, runner *r, mjcf_error *error);
 
 // A row of a ride and what the comparator judges beside it.
 typedef struct runner_sample {
-  bike_sample row;          // the columns of `bicycle ride`
-  bike_sample_more more;    // work and forces
-  double slip[2];           // as in runner_instant
-  double height[2];         //
-  double height_rate[2];    //
+  bike_sample row;       // the columns of `bicycle ride`
+  bike_sample_more more; // work and forces
+  double slip[2];        // as in runner_instant
+  double height[2];      //
+  double height_rate[2]; //
 } runner_sample;
 
 // A nonzero return stops the ride with RUNNER_INTERRUPTED.
 typedef int runner_sample_function(const runner_sample *sample, void *user);
 
 typedef struct runner_ride_def {
-  double duration;                   // s    > 0; rows at k * sample, k = 0 .. duration/sample
+  double duration;                   // s    > 0, a multiple of the timestep; rows at k * sample
   double sample;                     // s    a multiple of the timestep
   double lean_limit;                 // rad  0 < limit < pi/2
   bool stop_at_lift;                 //      a lift event ends the ride
@@ -116,8 +116,11 @@ typedef struct runner_ride_def {
   void *user;                        //      for both functions
 } runner_ride_def;
 
-// Defaults as in bike_default_ride_def, lean limit 85 deg: roll, pitch, yaw are singular at 90.
+// 10 s in rows of 10 ms, the lean limit of bike_default_ride_def.
 runner_ride_def runner_default_ride_def(void);
+
+// Whether runner_ride would take the definition: RUNNER_OK or RUNNER_ARGUMENT.
+runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjcf_error *error);
 
 typedef struct runner_ride_result {
   double end_time;                    // s    reached: the duration, or the event that ended it

@@ -10,7 +10,8 @@
 const char *runner_status_string(runner_status status) {
   switch (status) {
 #define RUNNER_STATUS_TEXT(code, text)                                                             \
-  case code: return text;
+  case code:                                                                                       \
+    return text;
     RUNNER_STATUSES(RUNNER_STATUS_TEXT)
 #undef RUNNER_STATUS_TEXT
   }

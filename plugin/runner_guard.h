@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls into MuJoCo that may go wrong, without its default manners: an error there prints, waits for
-// Enter and exits; a warning writes MUJOCO_LOG.TXT into the current folder.
+// Calls into MuJoCo that may go wrong, without its default manners: an error there prints, waits
+// for Enter and exits; a warning writes MUJOCO_LOG.TXT into the current folder.
 #ifndef RUNNER_GUARD_H
 #define RUNNER_GUARD_H
 

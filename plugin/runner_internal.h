@@ -21,10 +21,10 @@ typedef struct runner_wheel {
 
 // Where in the mjModel the bicycle is; nothing else of the model is known.
 typedef struct runner_map {
-  int frame;                         // id of the body rear_frame
-  bool free_root;                    // one free joint; otherwise slides x, y, z, hinges yaw, roll, pitch
-  int root_qpos, root_dof;           // their first addresses
-  runner_hinge steer;                //
+  int frame;               // id of the body rear_frame
+  bool free_root;          // one free joint; otherwise slides x, y, z, hinges yaw, roll, pitch
+  int root_qpos, root_dof; // their first addresses
+  runner_hinge steer;      //
   runner_wheel wheel[RUNNER_WHEELS]; //
   bool exact;                        // rolling_discs; otherwise contacts
 } runner_map;
@@ -61,8 +61,8 @@ runner *runner_activate(runner *r);
 
 //---------------------------------- attitude (runner_posture.c) -----------------------------------
 
-// Rear frame in yaw, roll, pitch and their rates, as the hinge root has them: what a free joint says
-// is brought to the same terms. Accelerations are filled if d->qacc is of this moment.
+// Rear frame in yaw, roll, pitch and their rates, as the hinge root has them: what a free joint
+// says is brought to the same terms. Accelerations are filled if d->qacc is of this moment.
 typedef struct runner_posture {
   double angle[3];        // rad      yaw, roll, pitch
   double rate[3];         // rad/s

@@ -12,8 +12,7 @@ void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wh
   const double *n = d->xaxis + 3 * w->hinge.joint, *hub = d->xpos + 3 * w->body;
   // e = -(z - n_z n)/s points from the hub to the lowest point;  height = hub_z - R s
   double s = hypot(n[0], n[1]), arm[3];
-  for (int k = 0; k < 3; k++)
-    out->point[k] = hub[k] - w->radius * ((k == 2) - n[2] * n[k]) / s;
+  for (int k = 0; k < 3; k++) out->point[k] = hub[k] - w->radius * ((k == 2) - n[2] * n[k]) / s;
   out->height = hub[2] - w->radius * s;
   // v_p = v_O + w x (p - O), O being the point that cvel refers to
   const double *rotation = d->cvel + 6 * w->body;
@@ -95,8 +94,8 @@ static void fill_motion(runner_instant *out, const runner *r, const mjData *d) {
   }
   // v = R_r (pitch' + rear_spin')
   out->speed = w[RUNNER_REAR].radius * (out->pitch_rate + out->wheel_rate[RUNNER_REAR]);
-  out->speed_rate = w[RUNNER_REAR].radius *
-                    (out->pitch_acceleration + out->wheel_acceleration[RUNNER_REAR]);
+  out->speed_rate =
+      w[RUNNER_REAR].radius * (out->pitch_acceleration + out->wheel_acceleration[RUNNER_REAR]);
 }
 
 static void fill_contacts(runner_instant *out, const runner *r, const mjData *d) {
@@ -127,9 +126,8 @@ runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *e
 
   double force[RUNNER_WHEELS][3] = {{0}};
   if (!find_forces(force, r, r->probe, error)) return RUNNER_INVALID_WARNING;
-  *out = (runner_instant){.potential = r->probe->energy[0],
-                          .kinetic = r->probe->energy[1],
-                          .power = r->probe_power};
+  *out = (runner_instant){
+      .potential = r->probe->energy[0], .kinetic = r->probe->energy[1], .power = r->probe_power};
   fill_motion(out, r, r->probe);
   fill_contacts(out, r, r->probe);
   for (int i = 0; i < RUNNER_WHEELS; i++) turn_into_heading(out->force[i], force[i], out->yaw);

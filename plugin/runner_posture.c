@@ -51,7 +51,8 @@ void runner_read_posture(runner_posture *out, const runner *r, const mjData *d) 
     read_hinges(out, r, d);
 }
 
-void runner_write_posture(const runner *r, mjData *d, const double place[3], const double angle[3]) {
+void runner_write_posture(const runner *r, mjData *d, const double place[3],
+                          const double angle[3]) {
   double *q = d->qpos + r->map.root_qpos;
   if (!r->map.free_root) {
     mju_copy3(q, place);

@@ -8,7 +8,7 @@
 
 runner_ride_def runner_default_ride_def(void) {
   return (runner_ride_def){
-      .duration = 10, .sample = 0.01, .lean_limit = 85 * mjPI / 180, .stop_at_lift = false};
+      .duration = 10, .sample = 0.01, .lean_limit = bike_default_ride_def().lean_limit};
 }
 
 // A ride under way.
@@ -34,7 +34,8 @@ static bool divides(long *times, double whole, double part) {
   return ratio < 1e15 && *times >= 1 && fabs(ratio - (double)*times) <= 1e-9 * ratio;
 }
 
-static runner_status check_def(const runner_ride_def *def, double step, mjcf_error *error) {
+runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjcf_error *error) {
+  double step = r->model->opt.timestep;
   long times;
   if (!def->on_sample) return refuse(error, "a ride needs on_sample");
   if (!(def->duration > 0 && isfinite(def->duration)))
@@ -57,25 +58,24 @@ static double friction_of(const double force[3]) {
 // Nonzero if the caller wants to stop.
 static int emit(const course *c, double time) {
   const runner_instant *a = &c->at;
-  runner_sample s = {
-      .row = {.time = time,
-              .x = a->x,
-              .y = a->y,
-              .yaw = a->yaw,
-              .lean = a->lean,
-              .pitch = a->pitch,
-              .steer = a->steer,
-              .lean_rate = a->lean_rate,
-              .steer_rate = a->steer_rate,
-              .speed = a->speed,
-              .rear_angle = a->wheel_angle[RUNNER_REAR],
-              .front_angle = a->wheel_angle[RUNNER_FRONT],
-              .energy = a->kinetic + a->potential,
-              .rear_normal = a->force[RUNNER_REAR][2],
-              .front_normal = a->force[RUNNER_FRONT][2],
-              .rear_friction = friction_of(a->force[RUNNER_REAR]),
-              .front_friction = friction_of(a->force[RUNNER_FRONT])},
-      .more = {.work = c->r->work}};
+  runner_sample s = {.row = {.time = time,
+                             .x = a->x,
+                             .y = a->y,
+                             .yaw = a->yaw,
+                             .lean = a->lean,
+                             .pitch = a->pitch,
+                             .steer = a->steer,
+                             .lean_rate = a->lean_rate,
+                             .steer_rate = a->steer_rate,
+                             .speed = a->speed,
+                             .rear_angle = a->wheel_angle[RUNNER_REAR],
+                             .front_angle = a->wheel_angle[RUNNER_FRONT],
+                             .energy = a->kinetic + a->potential,
+                             .rear_normal = a->force[RUNNER_REAR][2],
+                             .front_normal = a->force[RUNNER_FRONT][2],
+                             .rear_friction = friction_of(a->force[RUNNER_REAR]),
+                             .front_friction = friction_of(a->force[RUNNER_FRONT])},
+                     .more = {.work = c->r->work}};
   mju_copy3(s.more.rear_force, a->force[RUNNER_REAR]);
   mju_copy3(s.more.front_force, a->force[RUNNER_FRONT]);
   for (int i = 0; i < RUNNER_WHEELS; i++) {
@@ -94,31 +94,32 @@ static double fall_time(const course *c, double end, double before, double after
   return end - c->step * after / (after - before);
 }
 
-static void note(const course *c, bike_event_kind kind, double time) {
-  if (isnan(time)) return;
+// Time of an event that did not happen: NAN. What comes after the end is not noted.
+static void note(const course *c, bike_event_kind kind, double time, double end) {
+  if (isnan(time) || time > end) return;
   if (c->out->event_count < BIKE_MAX_EVENTS)
     c->out->events[c->out->event_count] = (bike_event){kind, time};
   c->out->event_count++;
 }
 
 // Notes what happened between two instants; the time of what ends the ride, or NAN.
-static double find_events(const course *c, double end, const runner_instant *before) {
+static double find_events(const course *c, double now, const runner_instant *before) {
   const runner_instant *after = &c->at;
-  double limit = c->def->lean_limit, last = NAN;
-  const double lift[RUNNER_WHEELS] = {
-      fall_time(c, end, before->force[RUNNER_REAR][2], after->force[RUNNER_REAR][2]),
-      fall_time(c, end, before->force[RUNNER_FRONT][2], after->force[RUNNER_FRONT][2])};
-  note(c, BIKE_EVENT_REAR_LIFT, lift[RUNNER_REAR]);
-  note(c, BIKE_EVENT_FRONT_LIFT, lift[RUNNER_FRONT]);
-  // fmin takes the number where the other one is NAN.
-  if (c->def->stop_at_lift) last = fmin(lift[RUNNER_REAR], lift[RUNNER_FRONT]);
-  double fallen = fall_time(c, end, limit - fabs(before->lean), limit - fabs(after->lean));
-  note(c, BIKE_EVENT_LEAN_LIMIT, fallen);
+  double limit = c->def->lean_limit, lift[RUNNER_WHEELS];
+  for (int i = 0; i < RUNNER_WHEELS; i++)
+    lift[i] = fall_time(c, now, before->force[i][2], after->force[i][2]);
+  double fallen = fall_time(c, now, limit - fabs(before->lean), limit - fabs(after->lean));
   // Standing still is for whoever moved: forwards or backwards.
   double sense = before->speed < 0 ? -1 : 1;
-  double stopped = fall_time(c, end, sense * before->speed, sense * after->speed);
-  note(c, BIKE_EVENT_STANDSTILL, stopped);
-  return fmin(last, fmin(fallen, stopped));
+  double stopped = fall_time(c, now, sense * before->speed, sense * after->speed);
+  // fmin takes the number where the other one is NAN.
+  double end = fmin(fallen, stopped);
+  if (c->def->stop_at_lift) end = fmin(end, fmin(lift[RUNNER_REAR], lift[RUNNER_FRONT]));
+  note(c, BIKE_EVENT_REAR_LIFT, lift[RUNNER_REAR], end);
+  note(c, BIKE_EVENT_FRONT_LIFT, lift[RUNNER_FRONT], end);
+  note(c, BIKE_EVENT_LEAN_LIMIT, fallen, end);
+  note(c, BIKE_EVENT_STANDSTILL, stopped, end);
+  return end;
 }
 
 //---------------------------------- steps ---------------------------------------------------------
@@ -186,7 +187,7 @@ runner_status runner_ride(runner_ride_result *out, runner *r, const runner_ride_
                           mjcf_error *error) {
   *out = (runner_ride_result){0};
   course c = {.r = r, .def = def, .out = out, .error = error, .step = r->model->opt.timestep};
-  runner_status status = check_def(def, c.step, error);
+  runner_status status = runner_check_ride(r, def, error);
   if (status != RUNNER_OK) return status;
   r->input = def->input;
   r->user = def->user;

@@ -23,6 +23,9 @@ static void refresh(const runner *r, mjData *d) {
   mj_comVel(r->model, d);
 }
 
+// Yaw and pitch are one axis at 90 deg.
+static const double most_lean = 85 * mjPI / 180;
+
 typedef struct start {
   runner *r;
   mjData *d;
@@ -31,7 +34,8 @@ typedef struct start {
 } start;
 
 // The unknown rates as a vector: x', y', z', yaw', pitch', rear_spin', front_spin'.
-static void write_rates(const start *s, const double u[RATES], double roll_rate, double steer_rate) {
+static void write_rates(const start *s, const double u[RATES], double roll_rate,
+                        double steer_rate) {
   const runner_map *map = &s->r->map;
   const double rate[3] = {u[3], roll_rate, u[4]};
   runner_write_rates(s->r, s->d, u, rate);
@@ -113,24 +117,21 @@ static bool solve(double A[RATES][RATES], double b[RATES]) {
 
 static bool find_rates(start *s) {
   const bike_state *state = s->state;
-  double columns[RATES][RATES], u[RATES] = {0};
+  double A[RATES][RATES], column[RATES], u[RATES] = {0};
   for (int k = 0; k < RATES; k++) {
     double unit[RATES] = {0};
     unit[k] = 1;
     write_rates(s, unit, 0, 0);
-    find_velocities(columns[k], s, unit);
+    find_velocities(column, s, unit);
+    for (int i = 0; i < RATES; i++) A[i][k] = column[i];
   }
-  // Twice: the second solution takes the rounding of the first away.
-  for (int pass = 0; pass < 2; pass++) {
-    double A[RATES][RATES], b[RATES];
-    for (int i = 0; i < RATES; i++)
-      for (int k = 0; k < RATES; k++) A[i][k] = columns[k][i];
-    write_rates(s, u, state->lean_rate, state->steer_rate);
-    find_velocities(b, s, u);
-    b[6] -= state->speed;
-    if (!solve(A, b)) return false;
-    for (int k = 0; k < RATES; k++) u[k] -= b[k];
-  }
+  // What lean and steer rate alone would do, and the speed, are to be made up for.
+  double b[RATES];
+  write_rates(s, u, state->lean_rate, state->steer_rate);
+  find_velocities(b, s, u);
+  b[6] -= state->speed;
+  for (int i = 0; i < RATES; i++) u[i] = -b[i];
+  if (!solve(A, u)) return false;
   write_rates(s, u, state->lean_rate, state->steer_rate);
   return true;
 }
@@ -138,8 +139,8 @@ static bool find_rates(start *s) {
 static void find_start(void *argument) {
   start *s = (start *)argument;
   mj_resetData(s->r->model, s->d);
-  s->found = find_position(s) && find_rates(s) &&
-             runner_residual(s->r, s->d) <= RUNNER_START_TOLERANCE;
+  s->found =
+      find_position(s) && find_rates(s) && runner_residual(s->r, s->d) <= RUNNER_START_TOLERANCE;
 }
 
 static bool is_finite_state(const bike_state *s) {
@@ -152,7 +153,7 @@ runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_e
     mjcf_fail(error, "a number of the start state is not finite");
     return RUNNER_ARGUMENT;
   }
-  if (fabs(state->lean) >= runner_default_ride_def().lean_limit) {
+  if (fabs(state->lean) >= most_lean) {
     mjcf_fail(error, "the lean of the start state must be below 85 deg");
     return RUNNER_ARGUMENT;
   }

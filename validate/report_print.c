@@ -28,21 +28,32 @@ static const char *plural(size_t count) {
   return count == 1 ? "" : "s";
 }
 
+static void print_counts(const report *r, FILE *stream) {
+  size_t gates = gate_total(r), failed = failed_total(r);
+  fprintf(stream, "%zu scenario%s, ", r->count, plural(r->count));
+  if (report_verdict(r) == VERDICT_INVALID)
+    fprintf(stream, "not all of which could be played\n");
+  else if (failed)
+    fprintf(stream, "%zu of %zu gates fail\n", failed, gates);
+  else
+    fprintf(stream, "all %zu gates hold\n", gates);
+}
+
+static void print_cause(const comparison *c, FILE *stream) {
+  fprintf(stream, "%s %s: %s\n", c->first_failure->name, c->first_failure->title, c->cause);
+}
+
 static void print_verdict(const report *r, FILE *stream) {
   static const char *const words[] = {"AGREE", "FAIL", "INVALID"};
   verdict v = report_verdict(r);
   term_style style = v == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
-  size_t gates = gate_total(r), failed = failed_total(r);
   const comparison *failure = report_first_failure(r);
-  fprintf(stream, "%s%s%s: %zu scenario%s, ", term_style_begin(stream, style), words[v],
-          term_style_end(stream, style), r->count, plural(r->count));
-  if (failed)
-    fprintf(stream, "%zu of %zu gates fail\n", failed, gates);
-  else
-    fprintf(stream, "all %zu gates hold\n", gates);
-  if (failure)
-    fprintf(stream, "First failure: %s, %s %s: %s\n", failure->scenario->name,
-            failure->first_failure->name, failure->first_failure->title, failure->cause);
+  fprintf(stream, "%s%s%s: ", term_style_begin(stream, style), words[v],
+          term_style_end(stream, style));
+  print_counts(r, stream);
+  if (!failure) return;
+  fprintf(stream, "First failure: %s, ", failure->scenario->name);
+  print_cause(failure, stream);
 }
 
 // "12x" within the limit, "0.5x": beyond it.
@@ -82,23 +93,26 @@ static void print_gates(const comparison *c, bool all, FILE *stream) {
   free(sorted);
 }
 
-static void print_scenario(const comparison *c, bool all, FILE *stream) {
+static void print_scenario(const comparison *c, bool explained, bool all, FILE *stream) {
   const scenario *s = c->scenario;
   term_style style = c->verdict == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
   fprintf(stream, "\n%s%s%s  %s: %s (%zu gate%s)\n", term_style_begin(stream, style),
           verdict_string(c->verdict), term_style_end(stream, style), s->name, s->title,
           c->gates.count, plural(c->gates.count));
-  if (c->first_failure)
-    fprintf(stream, "%s %s: %s\n", c->first_failure->name, c->first_failure->title, c->cause);
+  if (c->first_failure && !explained) print_cause(c, stream);
   print_gates(c, all, stream);
 }
 
 void report_print(const report *r, bool all, FILE *stream) {
+  const comparison *failure = report_first_failure(r);
   print_verdict(r, stream);
-  for (size_t i = 0; i < r->count; i++) print_scenario(&r->comparisons[i], all, stream);
+  for (size_t i = 0; i < r->count; i++) {
+    const comparison *c = &r->comparisons[i];
+    print_scenario(c, c == failure, all, stream);
+  }
   if (!all)
     fprintf(stream,
-            "\nOf each scenario the %d gates closest to their limits (all: --all); margin: "
-            "limit over value.\n",
+            "\nShown: the %d gates closest to their limits of each scenario (--all: every one); "
+            "margin: limit over value.\n",
             SHOWN_GATES);
 }

@@ -43,17 +43,10 @@ static void lump(bike_body *body, const bike_bicycle *bicycle, const upright_axe
     upright_place(r, axes, part->position, front);
     body->mass += part->mass;
     for (int k = 0; k < 3; k++) body->centre[k] += part->mass * r[k];
+    add_steiner(body->inertia, part->mass, r);
     add_tensor(body, part, axes);
   }
   for (int k = 0; k < 3; k++) body->centre[k] /= body->mass;
-  for (int i = 0; i < bicycle->part_count; i++) {
-    const bike_part *part = &bicycle->parts[i];
-    if (!belongs(part, front)) continue;
-    double r[3];
-    upright_place(r, axes, part->position, front);
-    for (int k = 0; k < 3; k++) r[k] -= body->centre[k];
-    add_steiner(body->inertia, part->mass, r);
-  }
 }
 
 static void find_rider(bike_model *model, const bike_bicycle *bicycle, const upright_axes *axes) {
@@ -61,8 +54,7 @@ static void find_rider(bike_model *model, const bike_bicycle *bicycle, const upr
     const bike_part *part = &bicycle->parts[i];
     if (!part->rider) continue;
     model->rider_mass = part->mass;
-    upright_place(model->rider_arm, axes, part->position, false);
-    for (int k = 0; k < 3; k++) model->rider_arm[k] -= model->rear.centre[k];
+    upright_place(model->rider_place, axes, part->position, false);
   }
 }
 

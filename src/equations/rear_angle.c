@@ -4,7 +4,7 @@
 #include <bicycle/error.h>
 
 // The straight line is first tried in steps of this share, halved where Newton's method does not
-// follow: an eighth of 60 deg keeps five steps quadratic on the shipped bicycles.
+// follow: an eighth of 60 deg is followed at once on the shipped bicycles.
 static const double FIRST_STEP = 0.125;
 // Roots closer to the end of the branch than this share of the line are not told from none.
 static const double SMALLEST_STEP = 1e-9;

@@ -11,7 +11,7 @@ static inline bool rear_angle_found(const position *g) {
   // above two, and one Newton step before convergence it is above a hundred
   const double tolerance = 8 * 2.220446049250313e-16;
   return fabs(g->residual) <= tolerance * g->scale && g->Q > 0 && g->c_br > 0 && g->c_kap > 0 &&
-         g->T_r * g->c_phit - g->T_f > 0;
+         g->D > 0;
 }
 
 // Follows the root from upright to (phi, kappa) along a straight line. BIKE_ERROR_GEOMETRY where

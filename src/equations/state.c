@@ -38,7 +38,7 @@ static load load_of(const bike_input *in) {
                 in->rider_acceleration};
 }
 
-// Solves the instant from the upright start; where five Newton steps were not enough, from a
+// Solves the instant from the upright start; where the Newton steps were not enough, from a
 // start found by continuation.
 static int solve_state(instant *now, const bike_model *model, const bike_state *state,
                        const bike_input *input) {
@@ -68,13 +68,13 @@ static double rear_hinge(const instant *now) {
 }
 
 static double front_hinge(const instant *now) {
-  return now->k.omega_f.x - now->rate.spin_f;
+  return dot(now->k.velocity.turn, now->k.body.axle_f) - now->rate.spin_f;
 }
 
 static double power_of(const instant *now, const bike_model *m, const load *in) {
   double phi = now->rate.u.phi;
   double p = (in->steer_torque - m->steer_damping * phi) * phi + in->roll_torque * now->rate.u.kap;
-  return in->w1 == 0 ? p : p + rider_force(now, m, in) * in->w1;
+  return in->w1 == 0 ? p : p + rider_force(now, m) * in->w1;
 }
 
 static const bike_input HANDS_OFF = {0};
@@ -131,7 +131,7 @@ static void put_geometry(bike_snapshot *out, const instant *now, const bike_mode
   out->Z_0 = g->Z_0;
 }
 
-static void put_rates(bike_snapshot *out, const instant *now) {
+static void put_rates(bike_snapshot *out, const instant *now, const bike_model *m) {
   form a = now->acceleration;
   out->acceleration = named(a);
   out->yaw_rate = now->rate.yaw;
@@ -141,11 +141,12 @@ static void put_rates(bike_snapshot *out, const instant *now) {
   out->front_wheel_rate = front_hinge(now);
   out->yaw_acceleration = now->rest.yaw + applied(now->forms.yaw, a);
   out->pitch_acceleration = -(now->rest.br + applied(now->forms.br, a));
-  // derivatives of the hinge rates: along e_N the frame has alpha_r.x, the fork alpha_f.x
-  double alpha_r = now->k.alpha_r0.x + combined(now->k.rear_partials.W, a).x;
-  double alpha_f = now->k.alpha_f0.x + combined(now->k.front_partials.W, a).x;
-  out->rear_wheel_acceleration = alpha_r - (now->rest.spin_r + applied(now->forms.spin_r, a));
-  out->front_wheel_acceleration = alpha_f - (now->rest.spin_f + applied(now->forms.spin_f, a));
+  // derivatives of the hinge rates; e_N turns with the frame, e_N^f with the fork
+  const masses *body = &now->k.body;
+  vec w = now->k.velocity.turn, al = accelerated(now, m).turn;
+  double fork = dot(al, body->axle_f) + now->rate.u.phi * dot(w, cross(body->axis, body->axle_f));
+  out->rear_wheel_acceleration = al.x - spin_up_rear(now);
+  out->front_wheel_acceleration = fork - spin_up_front(now);
 }
 
 static void put_force(double out[3], vec force) {
@@ -172,7 +173,7 @@ int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state 
   load in = load_of(input);
   bike_snapshot is;
   put_geometry(&is, &now, model);
-  put_rates(&is, &now);
+  put_rates(&is, &now, model);
   energy e = energy_of(&now, model, &in);
   is.kinetic = e.kinetic;
   is.potential = e.potential;

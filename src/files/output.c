@@ -103,7 +103,8 @@ static int open_target(bike_output *out, const char *path) {
     out->stream = fopen(path, "we");
     return out->stream ? 0 : errno;
   }
-  if (access(path, W_OK) != 0) return errno; // rename alone would replace a read-only file
+  // rename alone would replace a read-only file
+  if (faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) return errno;
   out->target = realpath(path, NULL);
   return out->target ? open_aside(out, &status) : errno;
 }

@@ -171,7 +171,6 @@ static int emit(ride *r, const bike_snapshot *view) {
   bike_sample sample;
   bike_sample_more more;
   ride_describe(&sample, &more, &r->now, view);
-  sample.time = row_time(r);
   r->row++;
   return r->def->on_sample(&sample, &more, r->def->user) ? BIKE_ERROR_INTERRUPTED : BIKE_OK;
 }

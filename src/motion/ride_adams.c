@@ -2,7 +2,7 @@
 // CVODE's Adams-Moulton method of variable order, with fixed-point iteration: no Jacobian.
 //
 // Its samples come from its own polynomial, which has the order of the step; made to stop at each
-// sample instead it takes half as many evaluations again and errs ten times more.
+// sample instead it takes up to twice the evaluations for the same error or a larger one.
 #include "motion/ride_method.h"
 #include "motion/ride_sundials.h"
 

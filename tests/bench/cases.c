@@ -10,8 +10,8 @@
 struct bench_cases {
   bike_model model;
   bike_state state;
-  runner *ride;        // its model and data are MuJoCo's contestants
-  mjData *start;       // a copy of the state to go back to
+  runner *ride;         // its model and data are MuJoCo's contestants
+  mjData *start;        // a copy of the state to go back to
   volatile double sink; // keeps results alive
 };
 

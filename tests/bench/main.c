@@ -70,10 +70,14 @@ static bool report(const bench_contest contests[BENCH_CONTESTS], bool json) {
 
 int main(int argc, char **argv) {
   static const char EXAMPLE[] = "bicycle-bench --json";
-  static const struct argp ARGP = {OPTION_LIST, parse, "[FILE]",
+  static const struct argp ARGP = {OPTION_LIST,
+                                   parse,
+                                   "[FILE]",
                                    "What a bicycle costs, in units of MuJoCo's work on the same "
                                    "bicycle (default: the benchmark bicycle).",
-                                   NULL, NULL, NULL};
+                                   NULL,
+                                   NULL,
+                                   NULL};
   options o = {.bicycle = "benchmark"};
   term_begin("bicycle-bench");
   term_parse(&ARGP, EXAMPLE, argc, argv, &o);

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static char folder[64];
@@ -15,7 +16,7 @@ static char folder[64];
 int scratch_create(void **state) {
   (void)state;
   snprintf(folder, sizeof folder, "/tmp/bicycle-test-XXXXXX");
-  return mkdtemp(folder) ? 0 : -1;
+  return mkdtemp(folder) && chmod(folder, 0755) == 0 ? 0 : -1;
 }
 
 static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *ftw) {
@@ -75,4 +76,15 @@ int scratch_count(void) {
     count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
   closedir(directory);
   return count;
+}
+
+void scratch_be_nobody(bool may_add) {
+  const uid_t nobody = 65534;
+  assert_int_equal(chmod(folder, may_add ? 0777 : 0555), 0);
+  if (getuid() == 0) assert_int_equal(seteuid(nobody), 0);
+}
+
+void scratch_be_self(void) {
+  if (getuid() == 0) assert_int_equal(seteuid(0), 0);
+  assert_int_equal(chmod(folder, 0755), 0);
 }

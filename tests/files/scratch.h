@@ -3,6 +3,7 @@
 #ifndef TESTS_FILES_SCRATCH_H
 #define TESTS_FILES_SCRATCH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { SCRATCH_PATH_SIZE = 256 };
@@ -21,6 +22,11 @@ const char *scratch_write_bytes(const char *name, const void *bytes, size_t size
 
 // The whole of a file, terminated, to be freed; fails the test where it cannot be read.
 char *scratch_read(const char *path);
+
+// Root reads and writes everything: makes the test an ordinary user until scratch_be_self, one who
+// may or may not add to the folder.
+void scratch_be_nobody(bool may_add);
+void scratch_be_self(void);
 
 // How many entries the folder has.
 int scratch_count(void);

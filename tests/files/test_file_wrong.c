@@ -137,8 +137,9 @@ static void unreadable(void **state) {
   (void)state;
   const char *path = scratch_write("secret.yml", SAMPLE_VALUES);
   assert_int_equal(chmod(path, 0), 0);
-  if (access(path, R_OK) == 0) skip(); // root reads everything
+  scratch_be_nobody(true);
   check_refused(path, BIKE_ERROR_FILE, ": Permission denied", "unreadable");
+  scratch_be_self();
 }
 
 int main(void) {

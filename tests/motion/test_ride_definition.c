@@ -183,6 +183,18 @@ static void default_is_good(void **state) {
   assert_int_equal(r.steps, 30);
 }
 
+// Not even its own rounding would let a step be this accurate: an error, at once.
+static void unreachable_accuracy_is_an_error(void **state) {
+  (void)state;
+  bike_model bike = roadster();
+  bike_ride_def def = good();
+  def.start.lean_rate = 0.2;
+  def.atol = 1e-300;
+  bike_ride_result r;
+  assert_int_equal(ride_into(&r, &bike, &def), BIKE_ERROR_SOLVER);
+  assert_true(!r.complete && r.event_count == 0 && r.end_time == 0 && rows.count == 1);
+}
+
 static void bad(double time, bike_input *out, void *user) {
   (void)user;
   out->roll_torque = time > 0.2 ? NAN : 0;
@@ -201,6 +213,9 @@ static void failing_rides(const bike_model *bike) {
     def.start = (bike_state){.lean = 0.05, .speed = 1};
     ride_into(&r, bike, &def);
     def.start = (bike_state){.speed = 1e200};
+    ride_into(&r, bike, &def);
+    def.start = (bike_state){.lean = 0.1, .speed = 6};
+    def.atol = 1e-300;
     ride_into(&r, bike, &def);
   }
 }
@@ -236,11 +251,9 @@ static int forget(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(wrong_definitions_are_refused),
-      cmocka_unit_test(pointers_are_checked),
-      cmocka_unit_test(impossible_start_is_its_own_error),
-      cmocka_unit_test(default_is_good),
-      cmocka_unit_test(library_is_silent),
+      cmocka_unit_test(wrong_definitions_are_refused),     cmocka_unit_test(pointers_are_checked),
+      cmocka_unit_test(impossible_start_is_its_own_error), cmocka_unit_test(default_is_good),
+      cmocka_unit_test(unreachable_accuracy_is_an_error),  cmocka_unit_test(library_is_silent),
   };
   return cmocka_run_group_tests(tests, NULL, forget);
 }

@@ -110,20 +110,21 @@ static void jumps_are_met_exactly(void **state) {
   }
 }
 
-// Breakpoints on samples, written in decimals where k * 0.1 differs in its last place: rows are
-// neither lost nor doubled, and at a jump a row shows what holds from there.
+// Breakpoints on samples, written in decimals where k * 0.1 differs in its last place, and some a
+// rounding apart: rows are neither lost nor doubled, no integrator has to make a step of nothing,
+// and at a jump a row shows what holds from there.
 static void jumps_may_fall_on_samples(void **state) {
   (void)state;
   bike_model bike = roadster();
   push p = {.from = 0.3, .to = 0.7, .torque = 1, .first = INFINITY, .last = -INFINITY};
-  double breakpoints[] = {0.3, 0.7};
+  double breakpoints[] = {0.3, nextafter(0.3, 1), 0.7, nextafter(1, 0)};
   for (int method = BIKE_METHOD_RK8; method <= BIKE_METHOD_RK4; method++) {
     trace t = {.input_data = &p};
     bike_ride_def def = ride_def(&t, RIDING, 1, 0.1);
     def.method = method;
     def.input = pushing;
     def.breakpoints = breakpoints;
-    def.breakpoint_count = 2;
+    def.breakpoint_count = 4;
     ride_end(&bike, &def);
     assert_int_equal(t.count, 11);
     assert_true(t.more[3].rear_force[1] == t.more[3].rear_force[1]);

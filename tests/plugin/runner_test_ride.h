@@ -6,19 +6,23 @@
 #include "runner.h"
 #include "support/near.h"
 
+#include <string.h>
+
 enum { TRACE_SIZE = 1101 };
 
 typedef struct trace {
   int count;
   bike_sample row[TRACE_SIZE];
   double work[TRACE_SIZE];
-  double slip, height; // largest
+  double force[TRACE_SIZE][2]; // N  on the rear wheel: along its heading, to the left
+  double slip, height;         // largest
 } trace;
 
 static inline int keep_mujoco(const runner_sample *s, void *user) {
   trace *t = (trace *)user;
   assert_in_range(t->count, 0, TRACE_SIZE - 1);
   t->row[t->count] = s->row;
+  memcpy(t->force[t->count], s->more.rear_force, sizeof t->force[0]);
   t->work[t->count++] = s->more.work;
   for (int i = 0; i < 2; i++) {
     t->slip = fmax(t->slip, s->slip[i]);
@@ -31,6 +35,7 @@ static inline int keep_analytic(const bike_sample *s, const bike_sample_more *mo
   trace *t = (trace *)user;
   assert_in_range(t->count, 0, TRACE_SIZE - 1);
   t->row[t->count] = *s;
+  memcpy(t->force[t->count], more->rear_force, sizeof t->force[0]);
   t->work[t->count++] = more->work;
   return 0;
 }

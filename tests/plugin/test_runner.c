@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MuJoCo's bicycle at one instant: published accelerations, and the analytic model at random states.
+// MuJoCo's bicycle at one instant: published accelerations, and the analytic model at random
+// states.
 #include "equations/bicycles.h"
 #include "reference/reference.h"
 #include "runner_internal.h"
@@ -85,7 +86,8 @@ static void test_bad_starts(void **state) {
     runner_status status = runner_evaluate(&at, r, &s, NULL, &error);
     assert_true(status == RUNNER_OK || status == RUNNER_START);
     impossible += status == RUNNER_START;
-    if (status != RUNNER_OK || bike_evaluate(&snapshot, &model, &s, &(bike_input){0}) != 0) continue;
+    if (status != RUNNER_OK || bike_evaluate(&snapshot, &model, &s, &(bike_input){0}) != 0)
+      continue;
     assert_near(at.pitch, snapshot.pitch, 1e-9); // near-singular positions among them
   }
   assert_in_range(impossible, 10, 250);
@@ -119,12 +121,12 @@ static void test_published_accelerations(void **state) {
     double is;
     const char *name;
     double sign;
-  } rows[] = {{v[0], "qd.x", -1},        {v[1], "qd.y", -1},        {v[2], "qd.z", 1},
-              {v[3], "qd.theta", 1},     {v[4], "qd.psi", -1},      {v[5], "qd.phi", 1},
-              {v[6], "qd.beta_r", 1},    {v[7], "qd.psi_f", 1},     {v[8], "qd.beta_f", 1},
-              {a[0], "qdd.x", -1},       {a[1], "qdd.y", -1},       {a[2], "qdd.z", 1},
-              {a[3], "qdd.theta", 1},    {a[4], "qdd.psi", -1},     {a[5], "qdd.phi", 1},
-              {a[6], "qdd.beta_r", 1},   {a[7], "qdd.psi_f", 1},    {a[8], "qdd.beta_f", 1}};
+  } rows[] = {{v[0], "qd.x", -1},      {v[1], "qd.y", -1},     {v[2], "qd.z", 1},
+              {v[3], "qd.theta", 1},   {v[4], "qd.psi", -1},   {v[5], "qd.phi", 1},
+              {v[6], "qd.beta_r", 1},  {v[7], "qd.psi_f", 1},  {v[8], "qd.beta_f", 1},
+              {a[0], "qdd.x", -1},     {a[1], "qdd.y", -1},    {a[2], "qdd.z", 1},
+              {a[3], "qdd.theta", 1},  {a[4], "qdd.psi", -1},  {a[5], "qdd.phi", 1},
+              {a[6], "qdd.beta_r", 1}, {a[7], "qdd.psi_f", 1}, {a[8], "qdd.beta_f", 1}};
   double worst = 0;
   for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
     double published = rows[i].sign * table1(t, rows[i].name);

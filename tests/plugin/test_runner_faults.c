@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that makes a ride worthless is found, and named.
 #include "equations/bicycles.h"
+#include "own_folder.h"
 #include "rolling.h"
 #include "runner_test_ride.h"
 
@@ -231,5 +232,8 @@ int main(void) {
       cmocka_unit_test(test_accidents),      cmocka_unit_test(test_mujoco_error),
       cmocka_unit_test(test_recovery),       cmocka_unit_test(test_bad_definitions),
       cmocka_unit_test(test_foreign_models), cmocka_unit_test(test_keyframe)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  own_folder folder = enter_own_folder();
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  leave_own_folder(&folder);
+  return failed;
 }

@@ -12,7 +12,9 @@
 static trace mujoco, analytic; // too large for the stack
 
 typedef struct difference {
-  double lean, steer, yaw, place, speed, work; // work of the start's energy
+  double lean, steer, yaw, place, speed;
+  double work;  // of the start's energy
+  double force; // of the weight
 } difference;
 
 static void widen(double *largest, double is, double should) {
@@ -32,6 +34,8 @@ static difference compare(const trace *a, const trace *b) {
     widen(&d.place, p->x, q->x);
     widen(&d.place, p->y, q->y);
     widen(&d.speed, p->speed, q->speed);
+    double weight = q->rear_normal + q->front_normal;
+    for (int k = 0; k < 2; k++) widen(&d.force, a->force[i][k] / weight, b->force[i][k] / weight);
     widen(&d.work, a->work[i] / a->row[0].energy, b->work[i] / a->row[0].energy);
   }
   return d;
@@ -107,6 +111,7 @@ static void check_ride(const task *t, double limit) {
          t->bicycle, t->start.speed, d.lean, d.steer, drift, mujoco.slip, mujoco.height);
   assert_below(d.lean, limit);
   assert_below(d.steer, limit);
+  assert_below(d.force, 1e-9);
   assert_below(drift, 1e-11);
   assert_below(mujoco.slip, 1e-10);
   assert_below(mujoco.height, 1e-11);
@@ -318,12 +323,15 @@ static void test_threads(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_rides_agree),   cmocka_unit_test(test_unstable_ride_agrees),
-      cmocka_unit_test(test_order_of_rk4),  cmocka_unit_test(test_torques_agree),
-      cmocka_unit_test(test_displaced_rider_agrees),
-      cmocka_unit_test(test_fall),          cmocka_unit_test(test_straight_stays_straight),
-      cmocka_unit_test(test_free_root_turns),
-      cmocka_unit_test(test_coarse_variants), cmocka_unit_test(test_threads)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rides_agree),
+                                     cmocka_unit_test(test_unstable_ride_agrees),
+                                     cmocka_unit_test(test_order_of_rk4),
+                                     cmocka_unit_test(test_torques_agree),
+                                     cmocka_unit_test(test_displaced_rider_agrees),
+                                     cmocka_unit_test(test_fall),
+                                     cmocka_unit_test(test_straight_stays_straight),
+                                     cmocka_unit_test(test_free_root_turns),
+                                     cmocka_unit_test(test_coarse_variants),
+                                     cmocka_unit_test(test_threads)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kane's equations for the speeds u = (phi', kappa', v) over the two lumped bodies: the ground's
-// forces do no work on them and drop out, which leaves M u' = f with M symmetric and positive
-// definite. Equivalent to (18)-(22) of the paper.
+// Kane's equations for the speeds u = (phi', kappa', v): the ground's forces do no work on them and
+// drop out, which leaves M u' = f with M symmetric and positive definite. Equivalent to (18)-(22).
 //
-// Rear vectors are in frame axes (N, p, S), front vectors in the same axes turned by the steer
-// about S; the front hub then lies on +p.
+// All vectors are in the moving basis (e_N, e_R, e_A): right, forward, up in the rear wheel plane.
+// Every motion that the wheels allow is a combination of five plain ones, each written as velocity
+// of the rear hub and angular velocity of the frame:
+//   pitch B: 0,               e_N     lean K: R_r e_N, e_R     forward X: e_R, 0
+//   yaw   Y: R_r sin kap e_R, e_z     steer S: the front frame alone turns about e_S
+// namely  phi': br.phi B + yaw.phi Y + S,  kappa': br.kap B + yaw.kap Y + K,  v: yaw.v Y + X.
+// These five have vectors so sparse that inertia costs little.
 #ifndef BICYCLE_KERNEL_DYNAMICS_H
 #define BICYCLE_KERNEL_DYNAMICS_H
 
@@ -14,216 +18,204 @@ typedef struct load {
   real w, w1, w2; // rider's offset and its derivatives
 } load;
 
-// A body at an instant, as needed by every quadratic form of its motion.
-typedef struct body {
-  real mass, spin_inertia;
-  vec centre;       // from the rear hub, or from the steering axis' foot point
-  real inertia[6];  // about `centre`
-  vec drift;        // velocity of `centre` relative to the frame (the rider's sway)
-  vec sway;         // angular momentum about `centre` of that relative motion
-} body;
+// How the mass lies, wheels' spin left out.
+typedef struct masses {
+  real mass;    // of the whole bicycle
+  vec moment;   // its first moment from the rear hub
+  tensor J;     // its inertia about the rear hub
+  tensor J_f;   // of the front body about the foot point of the steering axis
+  vec foot;     // that point, from the rear hub
+  vec axis;     // e_S
+  vec axle_f;   // e_N^f, the front wheel's hub axis
+  vec p_S, h_S; // momentum and angular momentum about the foot of unit steering
+  real J_S;     // e_S . h_S
+  vec rider;    // the rider from the rear hub
+} masses;
 
-// Motion per unit of each speed: V of the centre of mass, W of the frame, s of the wheel's spin.
-typedef struct partials {
-  vec V[3], W[3];
-  real s[3];
-} partials;
+// Motion of the frame, and what the bicycle would need to be accelerated so.
+typedef struct twist {
+  vec hub, turn; // velocity of the rear hub and angular velocity, or accelerations
+} twist;
 
-// Velocity of the rear hub and angular velocity of the rear frame, per column.
-typedef struct column {
-  vec hub, omega;
-} column;
+// Force and torque about the rear hub, and the part of the torque that steers the front body.
+typedef struct wrench {
+  vec force, torque;
+  real steer;
+} wrench;
 
 typedef struct kane {
-  body rear, front;
-  partials rear_partials, front_partials;
-  vec up_rear, up_front;            // e_z in the bodies' axes
-  vec omega_r, omega_f;             // angular velocities
-  vec hub_velocity;                 // of the rear hub
-  vec alpha_r0, alpha_f0;           // angular accelerations at u' = 0
-  vec hub_acceleration0;            // at u' = 0
-  vec centre_r0, centre_f0;         // accelerations of the centres of mass at u' = 0
-  real M[6];                        // phi phi, kap kap, v v, phi kap, phi v, kap v
-  real f[3];                        // phi, kap, v
-  real pivot[3];                    // of the elimination of v, kap, phi
+  masses body;
+  twist velocity, rest; // rest: accelerations at u' = 0, gravity as an upward one included
+  wrench need;          // at u' = 0
+  vec rider_rest;       // acceleration of the rider relative to the frame
+  real M[6];            // phi phi, kap kap, v v, phi kap, phi v, kap v
+  real f[3];            // phi, kap, v
+  real pivot[3];        // of the elimination of v, kap, phi
 } kane;
 
-// Rear body with the rider moved by w to the right: its mass times w moves the centre, and the
-// tensor gains what the parallel axis theorem says of the rider's share.
-static inline void rear_body(body *b, const kernel_model *m, const load *in) {
-  real share = m->rider_mass / m->rear.mass;
-  const real *rho = m->rider_arm;
-  real w = in->w, mw = m->rider_mass * w;
-  real along = mw * (2.0 * rho[0] + w * (1.0 - share));
-  const real *J = m->rear.inertia;
-  b->mass = m->rear.mass;
-  b->spin_inertia = m->rear.spin_inertia;
-  b->centre = (vec){m->rear.centre[0] + share * w, m->rear.centre[1], m->rear.centre[2]};
-  b->inertia[0] = J[0];
-  b->inertia[1] = J[1] + along;
-  b->inertia[2] = J[2] + along;
-  b->inertia[3] = J[3] - mw * rho[1];
-  b->inertia[4] = J[4] - mw * rho[2];
-  b->inertia[5] = J[5];
-  real nought = w - w;
-  b->drift = (vec){share * in->w1, nought, nought};
-  // rho x e_N m w'
-  real mw1 = m->rider_mass * in->w1;
-  b->sway = (vec){nought, mw1 * rho[2], -mw1 * rho[1]};
+// Rear body from the rear hub in frame axes (N, p, S), with the rider moved by w to the right.
+static inline void rear_body(tensor *J, vec *moment, const kernel_model *m, real w) {
+  const real *r = m->rider_place;
+  real mw = m->rider_mass * w, along = mw * (2.0 * r[0] + w);
+  *J = tensor_of(m->rear.inertia);
+  J->yy += along;
+  J->zz += along;
+  J->xy -= mw * r[1];
+  J->xz -= mw * r[2];
+  *moment = scaled(m->rear.mass, vec_of(m->rear.centre));
+  moment->x += mw;
 }
 
-static inline void front_body(body *b, const kernel_model *m) {
-  real nought = m->front.mass - m->front.mass;
-  b->mass = m->front.mass;
-  b->spin_inertia = m->front.spin_inertia;
-  b->centre = vec_of(m->front.centre);
-  for (int i = 0; i < 6; i++) b->inertia[i] = m->front.inertia[i];
-  b->drift = b->sway = (vec){nought, nought, nought};
+static inline void place_masses(masses *b, const kernel_model *m, const position *g, real w) {
+  const kernel_geometry *L = &m->geometry;
+  real s = g->s_br, c = g->c_br;
+  vec rear_moment, front_moment;
+  rear_body(&b->J, &rear_moment, m, w);
+  b->J = tensor_about_x(b->J, s, c);
+  b->J_f = tensor_about_z(tensor_of(m->front.inertia), g->s_phi, g->c_phi);
+  b->J_f = tensor_about_x(b->J_f, s, c);
+  front_moment = turned_about_z(scaled(m->front.mass, vec_of(m->front.centre)), g->s_phi, g->c_phi);
+  front_moment = turned_about_x(front_moment, s, c);
+
+  real nought = c - c;
+  b->axis = (vec){nought, -s, c};
+  b->axle_f = (vec){g->c_phi, g->s_phi * c, g->s_phi * s};
+  b->foot = (vec){nought, L->L_r * c + L->L_s * s, L->L_r * s - L->L_s * c};
+  b->rider =
+      turned_about_x((vec){m->rider_place[0] + w, m->rider_place[1], m->rider_place[2]}, s, c);
+  b->mass = m->rear.mass + m->front.mass;
+  b->moment =
+      add(add(turned_about_x(rear_moment, s, c), front_moment), scaled(m->front.mass, b->foot));
+  add_shifted(&b->J, b->J_f, m->front.mass, front_moment, b->foot);
+  b->p_S = cross(b->axis, front_moment);
+  b->h_S = times(&b->J_f, b->axis);
+  b->J_S = dot(b->axis, b->h_S);
 }
 
-// For beta_r', Omega, kappa', v of a column:
-//   hub   = R_r kappa' e_N + (v + R_r Omega sin kappa) e_R
-//   omega = beta_r' e_N + kappa' e_R + Omega e_z
-static inline column column_of(const position *g, real R_r, real br, real yaw, real kap, real v) {
-  real h = v + R_r * yaw * g->s_kap;
-  column c;
-  c.hub = (vec){R_r * kap, h * g->c_br, -h * g->s_br};
-  c.omega = (vec){br - yaw * g->s_kap, kap * g->c_br + yaw * g->c_kap * g->s_br,
-                  yaw * g->a - kap * g->s_br};
-  return c;
+// Inertia between the five plain motions.
+typedef struct inertia {
+  real BB, BY, BS, BK, BX, YY, YS, YK, YX, SS, SK, SX, KK, XX; // K and X are orthogonal
+} inertia;
+
+static inline void inertia_of(inertia *G, const masses *b, const position *g, real R) {
+  const tensor *J = &b->J;
+  vec c = b->moment;
+  real Rs = R * g->s_kap;
+  // e_z x moment along e_R; e_z . J
+  real forward = g->c_kap * c.x + g->s_kap * c.z;
+  vec Jz = {g->c_kap * J->xz - g->s_kap * J->xx, g->c_kap * J->yz - g->s_kap * J->xy,
+            g->c_kap * J->zz - g->s_kap * J->xz};
+  vec h = add(b->h_S, cross(b->foot, b->p_S)); // of unit steering, about the rear hub
+  G->BB = J->xx;
+  G->BK = J->xy;
+  G->BX = -c.z;
+  G->BY = Jz.x - Rs * c.z;
+  G->XX = b->mass;
+  G->KK = R * (R * b->mass + 2.0 * c.z) + J->yy;
+  G->YX = Rs * b->mass + forward;
+  G->YK = Jz.y - R * g->c_kap * c.y;
+  G->YY = Rs * (Rs * b->mass + 2.0 * forward) + g->c_kap * Jz.z - g->s_kap * Jz.x;
+  G->BS = h.x;
+  G->SX = b->p_S.y;
+  G->SK = R * b->p_S.x + h.y;
+  G->YS = Rs * b->p_S.y + g->c_kap * h.z - g->s_kap * h.x;
+  G->SS = b->J_S;
 }
 
-// From the rear hub to the steering axis' foot point.
-static inline vec foot_arm(const kernel_geometry *L) {
-  return (vec){L->L_r - L->L_r, L->L_r, -L->L_s};
+static inline void mass_matrix(real M[6], const inertia *G, const rate_forms *q, real spin_r,
+                               real spin_f) {
+  form b = q->br, o = q->yaw, r = q->spin_r, f = q->spin_f;
+  // momenta of the motions phi', kappa', v along the plain ones
+  real phi_B = b.phi * G->BB + o.phi * G->BY + G->BS, phi_Y = b.phi * G->BY + o.phi * G->YY + G->YS;
+  real phi_S = b.phi * G->BS + o.phi * G->YS + G->SS;
+  real kap_B = b.kap * G->BB + o.kap * G->BY + G->BK, kap_Y = b.kap * G->BY + o.kap * G->YY + G->YK;
+  real kap_S = b.kap * G->BS + o.kap * G->YS + G->SK;
+  real kap_K = b.kap * G->BK + o.kap * G->YK + G->KK;
+  real v_B = o.v * G->BY + G->BX, v_Y = o.v * G->YY + G->YX, v_S = o.v * G->YS + G->SX;
+  real v_K = o.v * G->YK, v_X = o.v * G->YX + G->XX;
+  M[0] = b.phi * phi_B + o.phi * phi_Y + phi_S + spin_r * r.phi * r.phi + spin_f * f.phi * f.phi;
+  M[1] = b.kap * kap_B + o.kap * kap_Y + kap_K + spin_r * r.kap * r.kap + spin_f * f.kap * f.kap;
+  M[2] = o.v * v_Y + v_X + spin_r * r.v * r.v + spin_f * f.v * f.v;
+  M[3] = b.phi * kap_B + o.phi * kap_Y + kap_S + spin_r * r.phi * r.kap + spin_f * f.phi * f.kap;
+  M[4] = b.phi * v_B + o.phi * v_Y + v_S + spin_r * r.phi * r.v + spin_f * f.phi * f.v;
+  M[5] = b.kap * v_B + o.kap * v_Y + v_K + spin_r * r.kap * r.v + spin_f * f.kap * f.v;
 }
 
-static inline void partials_of(kane *k, const position *g, const kernel_geometry *L,
-                               const rate_forms *f) {
-  real one = g->c_phi / g->c_phi, nought = one - one;
-  column c[3] = {column_of(g, L->R_r, f->br.phi, f->yaw.phi, nought, nought),
-                 column_of(g, L->R_r, f->br.kap, f->yaw.kap, one, nought),
-                 column_of(g, L->R_r, nought, f->yaw.v, nought, one)};
-  real spin_r[3] = {f->spin_r.phi, f->spin_r.kap, f->spin_r.v};
-  real spin_f[3] = {f->spin_f.phi, f->spin_f.kap, f->spin_f.v};
-  vec foot = foot_arm(L);
-  for (int i = 0; i < 3; i++) {
-    k->rear_partials.W[i] = c[i].omega;
-    k->rear_partials.V[i] = add(c[i].hub, cross(c[i].omega, k->rear.centre));
-    k->rear_partials.s[i] = spin_r[i];
-    vec at_foot = add(c[i].hub, cross(c[i].omega, foot));
-    vec turning = into_turned(g->s_phi, g->c_phi, c[i].omega);
-    if (i == 0) turning.z = turning.z + 1.0; // the steering rate itself
-    k->front_partials.W[i] = turning;
-    k->front_partials.V[i] = add(into_turned(g->s_phi, g->c_phi, at_foot),
-                                 cross(turning, k->front.centre));
-    k->front_partials.s[i] = spin_f[i];
-  }
+// Velocities, and the accelerations that are left at u' = 0. The basis turns with
+// (-Omega sin kap, kappa', Omega cos kap), the frame with beta_r' about e_N more.
+static inline void move_frame(kane *k, const kernel_model *m, const position *g, const rates *q,
+                              const bias *b) {
+  real R = m->geometry.R_r, kap = q->u.kap;
+  real turn_N = -q->yaw * g->s_kap, turn_A = q->yaw * g->c_kap;
+  real h = q->u.v - R * turn_N; // hub's speed along e_R
+  real nought = h - h;
+  k->velocity = (twist){{R * kap, h, nought}, {q->br + turn_N, kap, turn_A}};
+  real h_ = R * (b->yaw * g->s_kap + turn_A * kap);
+  k->rest.hub = (vec){-turn_A * h, h_ + turn_A * R * kap, turn_N * h - kap * R * kap};
+  k->rest.turn = (vec){b->br - b->yaw * g->s_kap - turn_A * kap, q->br * turn_A,
+                       b->yaw * g->c_kap + turn_N * kap - q->br * kap};
+  // whatever stands on the ground is accelerated upwards
+  k->rest.hub.x -= m->gravity * g->s_kap;
+  k->rest.hub.z += m->gravity * g->c_kap;
 }
 
-// Rear hub and frame at u' = 0: the column's time derivative in turning axes.
-static inline void hub_bias(kane *k, const position *g, real R_r, const rates *q, const bias *b) {
-  real h = q->u.v + R_r * q->yaw * g->s_kap;
-  real h_ = R_r * (b->yaw * g->s_kap + q->yaw * g->c_kap * q->u.kap);
-  vec relative = {h - h, h_ * g->c_br - h * g->s_br * q->br, -h_ * g->s_br - h * g->c_br * q->br};
-  k->hub_acceleration0 = add(relative, cross(k->omega_r, k->hub_velocity));
-  real z_p = g->c_kap * g->s_br; // e_z . e_p
-  real z_p_ = g->a * q->br - g->s_kap * g->s_br * q->u.kap;
-  real a_ = -g->s_kap * g->c_br * q->u.kap - z_p * q->br;
-  k->alpha_r0 = (vec){b->br - b->yaw * g->s_kap - q->yaw * g->c_kap * q->u.kap,
-                      b->yaw * z_p + q->yaw * z_p_ - q->u.kap * g->s_br * q->br,
-                      b->yaw * g->a + q->yaw * a_ - q->u.kap * g->c_br * q->br};
+// What the steering rate adds for the front body, which turns with w + phi' e_S: force at the foot
+//   2 phi' w x p_S + phi'^2 e_S x p_S,
+// torque about the foot
+//   phi' (w x h_S + e_S x J_f w - J_f (e_S x w)) + phi'^2 e_S x h_S, without part along e_S.
+static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, vec across,
+                                real phi) {
+  vec swept = cross(w, b->p_S);
+  vec force = add(add(swept, swept), scaled(phi, cross(b->axis, b->p_S)));
+  vec torque = add(cross(add(w, scaled(phi, b->axis)), b->h_S), cross(b->axis, J_f_w));
+  vec turned = times(&b->J_f, across);
+  torque = (vec){torque.x - turned.x, torque.y - turned.y, torque.z - turned.z};
+  force = scaled(phi, force);
+  n->force = add(n->force, force);
+  n->torque = add(n->torque, add(scaled(phi, torque), cross(b->foot, force)));
 }
 
-static inline void accelerations_at_rest(kane *k, const position *g, const kernel_geometry *L,
-                                         const rates *q, const bias *b, const load *in,
-                                         real share) {
-  column c = column_of(g, L->R_r, q->br, q->yaw, q->u.kap, q->u.v);
-  k->hub_velocity = c.hub;
-  k->omega_r = c.omega;
-  hub_bias(k, g, L->R_r, q, b);
-  // rear centre: hub + alpha x c + omega x (omega x c) + 2 omega x drift + drift'
-  k->centre_r0 = add(k->hub_acceleration0, carried(k->alpha_r0, k->omega_r, k->rear.centre));
-  vec swept = cross(k->omega_r, k->rear.drift);
-  k->centre_r0 = add(k->centre_r0, add(swept, swept));
-  k->centre_r0.x = k->centre_r0.x + share * in->w2;
-  // front: the same about the foot point, in the turned axes, which themselves turn with phi'
-  vec foot = add(k->hub_acceleration0, carried(k->alpha_r0, k->omega_r, foot_arm(L)));
-  k->omega_f = into_turned(g->s_phi, g->c_phi, k->omega_r);
-  k->alpha_f0 = into_turned(g->s_phi, g->c_phi, k->alpha_r0);
-  k->alpha_f0.x = k->alpha_f0.x + q->u.phi * k->omega_f.y;
-  k->alpha_f0.y = k->alpha_f0.y - q->u.phi * k->omega_f.x;
-  k->omega_f.z = k->omega_f.z + q->u.phi;
-  k->centre_f0 = add(into_turned(g->s_phi, g->c_phi, foot),
-                     carried(k->alpha_f0, k->omega_f, k->front.centre));
+// Force and torque needed at u' = 0, the wheels' spin-up left out.
+static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, const load *in) {
+  const masses *b = &k->body;
+  vec w = k->velocity.turn, a = k->rest.hub, al = k->rest.turn;
+  wrench *n = &k->need;
+  // the whole bicycle rigid: m a + al x c + w x (w x c);  c x a + J al + w x J w
+  n->force = add(scaled(b->mass, a), carried(al, w, b->moment));
+  n->torque = add(add(cross(b->moment, a), times(&b->J, al)), cross(w, times(&b->J, w)));
+  // the front body about e_S: p_S . a_foot + h_S . al + e_S . (w x J_f w)
+  vec J_f_w = times(&b->J_f, w), across = cross(b->axis, w);
+  n->steer = dot(b->p_S, add(a, carried(al, w, b->foot))) + dot(b->h_S, al) + dot(across, J_f_w);
+  add_steering(n, b, w, J_f_w, across, q->u.phi);
+  // the wheels' angular momenta turn with their hub axes
+  real H_r = m->rear.spin_inertia * q->spin_r;
+  vec H_f = scaled(m->front.spin_inertia * q->spin_f, b->axle_f);
+  n->torque.y += w.z * H_r;
+  n->torque.z -= w.y * H_r;
+  n->torque = add(n->torque, cross(add(w, scaled(q->u.phi, b->axis)), H_f));
+  n->steer += dot(across, H_f);
+  // the rider relative to the frame: 2 w' w x e_N + w'' e_N
+  k->rider_rest = (vec){in->w2, 2.0 * in->w1 * w.z, -2.0 * in->w1 * w.y};
+  vec push = scaled(m->rider_mass, k->rider_rest);
+  n->force = add(n->force, push);
+  n->torque = add(n->torque, cross(b->rider, push));
 }
 
-// Whole angular momentum of a body about its centre of mass, in its axes; spin along `hub`.
-static inline vec angular_momentum(const body *b, vec omega, real spin) {
-  vec H = add(times(b->inertia, omega), b->sway);
-  H.x = H.x + b->spin_inertia * spin;
-  return H;
-}
-
-static inline void add_mass(real M[6], const body *b, const partials *p) {
-  vec JW[3];
-  for (int i = 0; i < 3; i++) JW[i] = times(b->inertia, p->W[i]);
-  for (int i = 0, k = 3; i < 3; i++) {
-    M[i] += b->mass * dot(p->V[i], p->V[i]) + dot(JW[i], p->W[i]) +
-            b->spin_inertia * p->s[i] * p->s[i];
-    for (int j = i + 1; j < 3; j++, k++)
-      M[k] += b->mass * dot(p->V[i], p->V[j]) + dot(JW[i], p->W[j]) +
-              b->spin_inertia * p->s[i] * p->s[j];
-  }
-}
-
-// f_i -= m a_0.V_i + T_0.W_i + Theta spin'_0 s_i, T_0 the rate of angular momentum less the spin-up
-// of the wheel; and the weight m g e_z.V_i where heights change, which is with phi' and kappa' only:
-// so straight riding feels no rounding of a force that is not there.
-static inline void subtract_inertia(real f[3], const body *b, const partials *p, vec centre0,
-                                    vec weight, vec torque, real spin_up) {
-  vec force = scaled(b->mass, centre0);
-  for (int i = 0; i < 3; i++)
-    f[i] -= dot(force, p->V[i]) + dot(torque, p->W[i]) + b->spin_inertia * spin_up * p->s[i];
-  for (int i = 0; i < 2; i++) f[i] -= dot(weight, p->V[i]);
-}
-
-// Rate of angular momentum at u' = 0, the rear one with the change of its tensor and its sway:
-//   J alpha + omega x H + J' omega + sway'
-static inline vec rear_torque0(const kane *k, const kernel_model *m, const load *in, real spin) {
-  vec H = angular_momentum(&k->rear, k->omega_r, spin);
-  vec T = add(times(k->rear.inertia, k->alpha_r0), cross(k->omega_r, H));
-  const real *rho = m->rider_arm;
-  real share = m->rider_mass / m->rear.mass;
-  real mw1 = m->rider_mass * in->w1, mw2 = m->rider_mass * in->w2;
-  real along_ = 2.0 * mw1 * (rho[0] + in->w * (1.0 - share));
-  vec o = k->omega_r;
-  T.x += -mw1 * (rho[1] * o.y + rho[2] * o.z);
-  T.y += along_ * o.y - mw1 * rho[1] * o.x + mw2 * rho[2];
-  T.z += along_ * o.z - mw1 * rho[2] * o.x - mw2 * rho[1];
-  return T;
-}
-
-static inline vec front_torque0(const kane *k, real spin) {
-  vec H = angular_momentum(&k->front, k->omega_f, spin);
-  return add(times(k->front.inertia, k->alpha_f0), cross(k->omega_f, H));
-}
-
-static inline void equations_of_motion(kane *k, const kernel_model *m, const rates *q,
-                                       const bias *b, const load *in) {
-  real nought = k->rear.mass - k->rear.mass;
-  for (int i = 0; i < 6; i++) k->M[i] = nought;
-  add_mass(k->M, &k->rear, &k->rear_partials);
-  add_mass(k->M, &k->front, &k->front_partials);
-  k->f[0] = in->steer_torque - m->steer_damping * q->u.phi;
-  k->f[1] = in->roll_torque;
-  k->f[2] = nought;
-  subtract_inertia(k->f, &k->rear, &k->rear_partials, k->centre_r0,
-                   scaled(m->gravity * k->rear.mass, k->up_rear),
-                   rear_torque0(k, m, in, q->spin_r), b->spin_r);
-  subtract_inertia(k->f, &k->front, &k->front_partials, k->centre_f0,
-                   scaled(m->gravity * k->front.mass, k->up_front), front_torque0(k, q->spin_f),
-                   b->spin_f);
+// f: torques from outside less what the accelerations at u' = 0 need along each motion.
+static inline void forces_along(kane *k, const kernel_model *m, const position *g,
+                                const rate_forms *q, const rates *r, const bias *b,
+                                const load *in) {
+  const wrench *n = &k->need;
+  real R = m->geometry.R_r;
+  real B = n->torque.x, X = n->force.y, K = R * n->force.x + n->torque.y;
+  real Y = R * g->s_kap * X + g->c_kap * n->torque.z - g->s_kap * B;
+  real up_r = m->rear.spin_inertia * b->spin_r, up_f = m->front.spin_inertia * b->spin_f;
+  k->f[0] =
+      in->steer_torque - m->steer_damping * r->u.phi -
+      (q->br.phi * B + q->yaw.phi * Y + n->steer + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
+  k->f[1] = in->roll_torque -
+            (q->br.kap * B + q->yaw.kap * Y + K + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
+  k->f[2] = -(q->yaw.v * Y + X + q->spin_r.v * up_r + q->spin_f.v * up_f);
 }
 
 // u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry.

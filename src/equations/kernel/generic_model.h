@@ -22,7 +22,7 @@ typedef struct kernel_model {
   real gravity, steer_damping;
   kernel_body rear, front;
   real rider_mass;
-  real rider_arm[3];
+  real rider_place[3];
 } kernel_model;
 
 static inline void kernel_body_of(kernel_body *out, const bike_body *b) {
@@ -41,7 +41,7 @@ static inline void kernel_model_of(kernel_model *out, const bike_model *m) {
   kernel_body_of(&out->rear, &m->rear);
   kernel_body_of(&out->front, &m->front);
   out->rider_mass = real_of(m->rider_mass);
-  for (int i = 0; i < 3; i++) out->rider_arm[i] = real_of(m->rider_arm[i]);
+  for (int i = 0; i < 3; i++) out->rider_place[i] = real_of(m->rider_place[i]);
 }
 
 #endif

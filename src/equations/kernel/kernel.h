@@ -26,14 +26,6 @@ typedef struct instant {
   form acceleration; // phi'', kappa'', v'
 } instant;
 
-static inline void build_bodies(kane *k, const kernel_model *m, const position *g,
-                                const load *in) {
-  rear_body(&k->rear, m, in);
-  front_body(&k->front, m);
-  k->up_rear = (vec){-g->s_kap, g->c_kap * g->s_br, g->a};
-  k->up_front = (vec){-g->s_psi, g->tau, g->a};
-}
-
 static inline void solve_instant(instant *out, const kernel_model *m, start from, real phi,
                                  real kappa, form u, const load *in) {
   const kernel_geometry *L = &m->geometry;
@@ -41,12 +33,15 @@ static inline void solve_instant(instant *out, const kernel_model *m, start from
   rate_forms_of(&out->forms, &out->at, L);
   rates_at(&out->rate, &out->forms, &out->at, L, u);
   bias_of(&out->rest, &out->at, L, &out->rate);
-  build_bodies(&out->k, m, &out->at, in);
-  partials_of(&out->k, &out->at, L, &out->forms);
-  accelerations_at_rest(&out->k, &out->at, L, &out->rate, &out->rest, in,
-                        m->rider_mass / m->rear.mass);
-  equations_of_motion(&out->k, m, &out->rate, &out->rest, in);
-  out->acceleration = solved(&out->k);
+  kane *k = &out->k;
+  inertia G;
+  place_masses(&k->body, m, &out->at, in->w);
+  inertia_of(&G, &k->body, &out->at, L->R_r);
+  mass_matrix(k->M, &G, &out->forms, m->rear.spin_inertia, m->front.spin_inertia);
+  move_frame(k, m, &out->at, &out->rate, &out->rest);
+  need_at_rest(k, m, &out->rate, in);
+  forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest, in);
+  out->acceleration = solved(k);
 }
 
 #endif

@@ -44,11 +44,11 @@ typedef struct bike_part {
 } bike_part;
 
 typedef struct bike_bicycle {
-  char name[BIKE_NAME_SIZE];      // what tables and reports call it
-  bike_geometry geometry;         //
-  double gravity;                 // m/s^2        > 0
-  double steer_damping;           // N m s/rad    d >= 0 of the steer torque -d * steer_rate
-  int part_count;                 //              1 .. BIKE_MAX_PARTS
+  char name[BIKE_NAME_SIZE];       // what tables and reports call it
+  bike_geometry geometry;          //
+  double gravity;                  // m/s^2        > 0
+  double steer_damping;            // N m s/rad    d >= 0 of the steer torque -d * steer_rate
+  int part_count;                  //              1 .. BIKE_MAX_PARTS
   bike_part parts[BIKE_MAX_PARTS]; //
 } bike_bicycle;
 

@@ -9,12 +9,13 @@
 #define BIKE_ERRORS(X)                                                                             \
   X(BIKE_OK, "no error")                                                                           \
   X(BIKE_ERROR_ARGUMENT, "an argument is missing or outside its range")                            \
-  X(BIKE_ERROR_NOT_FINITE, "a number is not finite, or too large to compute with")                   \
+  X(BIKE_ERROR_NOT_FINITE, "a number is not finite, or too large to compute with")                 \
   X(BIKE_ERROR_MEMORY, "out of memory")                                                            \
   X(BIKE_ERROR_PARAMETER, "a parameter of the bicycle is outside its range")                       \
   X(BIKE_ERROR_IMPOSSIBLE, "the two wheels of this bicycle cannot stand on the ground")            \
   X(BIKE_ERROR_NO_RIDER, "a rider offset is given but no part of the bicycle is the rider")        \
-  X(BIKE_ERROR_GEOMETRY, "no geometry: both wheels cannot touch the ground at this lean and steer") \
+  X(BIKE_ERROR_GEOMETRY,                                                                           \
+    "no geometry: both wheels cannot touch the ground at this lean and steer")                     \
   X(BIKE_ERROR_SINGULAR, "singular: the accelerations are not determined at this state")           \
   X(BIKE_ERROR_SOLVER, "the integrator failed")                                                    \
   X(BIKE_ERROR_NO_CONVERGENCE, "no convergence")                                                   \

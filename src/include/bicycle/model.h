@@ -11,22 +11,22 @@ typedef struct bike_body {
   double mass;         // kg
   double centre[3];    // m        centre of mass; rear: from the rear hub, front: from the foot of
                        //          the perpendicular from the front hub onto the steering axis
-  double inertia[6];   // kg m^2   NN, pp, SS, Np, NS, pS about the centre of mass, the wheel's
+  double inertia[6];   // kg m^2   NN, pp, SS, Np, NS, pS about that hub or foot point, the wheel's
                        //          axial inertia left out
   double spin_inertia; // kg m^2   the wheel's inertia about its hub axis
 } bike_body;
 
 // Constant after bike_model_init; may be shared between threads.
 typedef struct bike_model {
-  bike_geometry geometry;  //
-  double gravity;          // m/s^2
-  double steer_damping;    // N m s/rad
-  double tilt;             // rad     upright beta_r
-  bike_body rear;          //         with the rider at rider offset zero
-  bike_body front;         //
-  double rider_mass;       // kg      0 without a rider
-  double rider_arm[3];     // m       rider's centre of mass from the rear body's, at offset zero
-  double total_mass;       // kg
+  bike_geometry geometry; //
+  double gravity;         // m/s^2
+  double steer_damping;   // N m s/rad
+  double tilt;            // rad     upright beta_r
+  bike_body rear;         //         with the rider at rider offset zero
+  bike_body front;        //
+  double rider_mass;      // kg      0 without a rider
+  double rider_place[3];  // m       rider's centre of mass from the rear hub, at offset zero
+  double total_mass;      // kg
 } bike_model;
 
 // Checks the bicycle and lumps its parts. Errors: those of bike_check and bike_upright_position.

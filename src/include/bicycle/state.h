@@ -37,25 +37,25 @@ typedef struct bike_acceleration {
 // heading, horizontal to the left of it, up).
 typedef struct bike_snapshot {
   bike_acceleration acceleration; //
-  double pitch;             // rad    tilt - beta_r: nose down positive
-  double beta_r, beta_f;    // rad    equations (1), (4)
-  double psi;               // rad    lean of the front wheel, equation (2)
-  double phi_tilde;         // rad    steer projected on the ground, equation (3)
-  double T_r, T_f, Z_0;     // m      equations (5)-(7)
-  double yaw_rate;          // rad/s  Omega, equation (13)
-  double pitch_rate;        // rad/s
-  double front_speed;       // m/s    v_f of the front contact point along its track, equation (14)
-  double rear_wheel_rate;   // rad/s  hinge rate relative to the frame, rolling forward positive
-  double front_wheel_rate;  // rad/s  hinge rate relative to the fork
-  double yaw_acceleration;  // rad/s^2
+  double pitch;                   // rad    tilt - beta_r: nose down positive
+  double beta_r, beta_f;          // rad    equations (1), (4)
+  double psi;                     // rad    lean of the front wheel, equation (2)
+  double phi_tilde;               // rad    steer projected on the ground, equation (3)
+  double T_r, T_f, Z_0;           // m      equations (5)-(7)
+  double yaw_rate;                // rad/s  Omega, equation (13)
+  double pitch_rate;              // rad/s
+  double front_speed;        // m/s    v_f of the front contact point along its track, equation (14)
+  double rear_wheel_rate;    // rad/s  hinge rate relative to the frame, rolling forward positive
+  double front_wheel_rate;   // rad/s  hinge rate relative to the fork
+  double yaw_acceleration;   // rad/s^2
   double pitch_acceleration; // rad/s^2
   double rear_wheel_acceleration;  // rad/s^2
   double front_wheel_acceleration; // rad/s^2
-  double kinetic;           // J      equation (24)
-  double potential;         // J      zero with every mass at the ground
-  double power;             // W      of steer torque, damper, roll torque and the rider's motion
-  double rear_force[3];     // N      of the ground on the rear wheel
-  double front_force[3];    // N      of the ground on the front wheel
+  double kinetic;                  // J      equation (24)
+  double potential;                // J      zero with every mass at the ground
+  double power;          // W      of steer torque, damper, roll torque and the rider's motion
+  double rear_force[3];  // N      of the ground on the rear wheel
+  double front_force[3]; // N      of the ground on the front wheel
 } bike_snapshot;
 
 // Accelerations alone. Errors: NO_RIDER (a rider input without a rider), NOT_FINITE, GEOMETRY,
@@ -68,7 +68,8 @@ BIKE_API int bike_evaluate(bike_snapshot *out, const bike_model *model, const bi
                            const bike_input *input);
 
 // Mass matrix of Kane's equations for the speeds (lean_rate, steer_rate, speed): row-major, SI.
-// With rates r = (lean_rate, steer_rate, speed) the kinetic energy is r.M r / 2 for a rider at rest.
+// With rates r = (lean_rate, steer_rate, speed) the kinetic energy is r.M r / 2 for a rider at
+// rest.
 BIKE_API int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
                               double rider_offset);
 

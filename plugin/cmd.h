@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of the program `bicycle-mujoco`, run as `bicycle mujoco NAME`, and what their
+// command lines share.
+#ifndef PLUGIN_CMD_H
+#define PLUGIN_CMD_H
+
+#include "bicycle_mjcf.h"
+
+#include "cli/start.h"
+#include "terminal/command.h"
+
+int cmd_mjcf(int argc, char **argv);
+int cmd_ride(int argc, char **argv);
+
+// How the model is made, and which of it was asked for: a model file has its own.
+typedef struct cmd_model {
+  mjcf_options options;
+  bool has_root, has_rolling, has_integrator, has_timestep;
+} cmd_model;
+
+// --root, --rolling, --integrator, --timestep: a child parser whose input is a cmd_model with
+// default options.
+extern const struct argp cmd_model_argp;
+
+// FILE and the start state, every number of it NAN until it is given: `speed` may be missing.
+cli_start cmd_no_start(void);
+
+// Whether any number of the state was given; what was not becomes zero, but for the speed.
+bool cmd_has_start(cli_start *start);
+
+#endif

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report: its structure, that it is the same twice, and what its folder may replace.
+#include "support/near.h"
+#include "validate_support.h"
+
+#include <dirent.h>
+#include <folder.h>
+#include <report.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// A run of the test scenario with a text that may be changed, in a folder of its own.
+typedef struct fixture {
+  char *home, *target;
+  scenario scenario;
+  comparison comparison;
+  report report;
+} fixture;
+
+static fixture *open_fixture(const char *text) {
+  fixture *f = calloc(1, sizeof *f);
+  problem p = {""};
+  assert_non_null(f);
+  f->home = support_folder();
+  assert_true(asprintf(&f->target, "%s/report", f->home) > 0);
+  support_read_scenario(&f->scenario, f->home, text);
+  assert_int_equal(comparison_open(&f->comparison, &f->scenario, &p), TERM_DONE);
+  assert_int_equal(comparison_run(&f->comparison, &p), TERM_DONE);
+  char argument[] = "it's mine.yml";
+  char *arguments[] = {argument};
+  assert_true(provenance_begin(&f->report.provenance, arguments, 1));
+  f->report.comparisons = &f->comparison;
+  f->report.count = 1;
+  return f;
+}
+
+static void close_fixture(fixture *f) {
+  provenance_clear(&f->report.provenance);
+  comparison_close(&f->comparison);
+  scenario_clear(&f->scenario);
+  support_remove(f->home);
+  free(f->target);
+  free(f);
+}
+
+static char *beside(const fixture *f, const char *name) {
+  char *path = NULL;
+  assert_true(asprintf(&path, "%s/%s", f->target, name) > 0);
+  return path;
+}
+
+static json_t *load_report(const fixture *f) {
+  char *path = beside(f, "report.json");
+  json_t *document = json_load_file(path, 0, NULL);
+  assert_non_null(document);
+  free(path);
+  return document;
+}
+
+static int count_entries(const char *path) {
+  int count = 0;
+  DIR *open = opendir(path);
+  assert_non_null(open);
+  while (readdir(open)) count++;
+  closedir(open);
+  return count - 2; // "." and ".."
+}
+
+static const char *text_of(const json_t *object, const char *key) {
+  return json_string_value(json_object_get(object, key));
+}
+
+static void check_gate(const json_t *g) {
+  assert_true(json_is_string(json_object_get(g, "layer")));
+  assert_true(json_is_string(json_object_get(g, "signal")));
+  assert_true(json_is_string(json_object_get(g, "metric")));
+  assert_true(json_is_real(json_object_get(g, "value")));
+  assert_true(json_is_real(json_object_get(g, "limit")));
+  assert_true(json_is_true(json_object_get(g, "pass")));
+  assert_true(json_real_value(json_object_get(g, "value")) <=
+              json_real_value(json_object_get(g, "limit")));
+}
+
+static void test_structure(void **state) {
+  (void)state;
+  fixture *f = open_fixture(support_scenario_text);
+  problem p = {""};
+  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  json_t *document = load_report(f);
+  assert_string_equal(text_of(document, "schema"), REPORT_SCHEMA);
+  assert_int_equal(json_integer_value(json_object_get(document, "version")), 1);
+  assert_string_equal(text_of(document, "verdict"), "agree");
+  assert_true(json_is_null(json_object_get(document, "first_failure")));
+  const json_t *scenarios = json_object_get(document, "scenarios");
+  assert_int_equal(json_array_size(scenarios), 1);
+  const json_t *s = json_array_get(scenarios, 0);
+  assert_string_equal(text_of(s, "name"), "test");
+  assert_string_equal(text_of(s, "bicycle"), "benchmark");
+  assert_string_equal(text_of(s, "verdict"), "agree");
+  const json_t *gates = json_object_get(s, "gates");
+  assert_int_equal(json_array_size(gates), f->comparison.gates.count);
+  for (size_t i = 0; i < json_array_size(gates); i++) check_gate(json_array_get(gates, i));
+  const json_t *origin = json_object_get(document, "provenance");
+  assert_string_equal(text_of(origin, "command"), "bicycle validate 'it'\\''s mine.yml'");
+  assert_non_null(text_of(origin, "compiler"));
+  assert_non_null(text_of(origin, "cpu"));
+  const json_t *engines = json_object_get(s, "engines");
+  assert_non_null(strstr(text_of(json_array_get(engines, 1), "version"), "MuJoCo 2.2"));
+  assert_int_equal(strlen(text_of(json_array_get(engines, 1), "model_sha256")), 64);
+  assert_int_equal(strlen(text_of(s, "parameter_sha256")), 64);
+  json_decref(document);
+  close_fixture(f);
+}
+
+static void test_failure_is_told(void **state) {
+  (void)state;
+  char *text = strdup(support_scenario_text), *limit = strstr(text, "limit: 1e-11");
+  memcpy(limit, "limit: 1e-22", strlen("limit: 1e-22"));
+  fixture *f = open_fixture(text);
+  json_t *document = report_document(&f->report);
+  assert_string_equal(text_of(document, "verdict"), "fail");
+  assert_string_equal(text_of(document, "first_failure"), "L2");
+  assert_non_null(strstr(text_of(document, "cause"), "steer"));
+  assert_int_equal(verdict_exit(report_verdict(&f->report)), 1);
+  json_decref(document);
+  close_fixture(f);
+  free(text);
+}
+
+// Takes away what may differ between two runs.
+static char *timeless(json_t *document) {
+  json_t *origin = json_object_get(document, "provenance");
+  json_object_del(origin, "created");
+  json_object_del(origin, "timings");
+  char *text = json_dumps(document, JSON_REAL_PRECISION(17));
+  json_decref(document);
+  assert_non_null(text);
+  return text;
+}
+
+static void test_same_twice(void **state) {
+  (void)state;
+  char *text[2];
+  for (int i = 0; i < 2; i++) {
+    fixture *f = open_fixture(support_scenario_text);
+    text[i] = timeless(report_document(&f->report));
+    close_fixture(f);
+  }
+  assert_string_equal(text[0], text[1]);
+  free(text[0]);
+  free(text[1]);
+}
+
+static void test_csv(void **state) {
+  (void)state;
+  fixture *f = open_fixture(support_scenario_text);
+  problem p = {""};
+  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  static const char *const names[] = {"test-analytic.csv", "test-mujoco.csv", "test-residuals.csv"};
+  for (int i = 0; i < 3; i++) {
+    char *path = beside(f, names[i]), *text = support_read(path);
+    assert_non_null(text);
+    assert_ptr_equal(strstr(text, "time,x,y,yaw,lean,pitch,steer,lean_rate,steer_rate,speed,"),
+                     text);
+    assert_true((strstr(text, "rear_slip") != NULL) == (i == 1));
+    int lines = 0;
+    for (const char *c = text; *c; c++) lines += *c == '\n';
+    assert_int_equal(lines, 52);
+    free(text);
+    free(path);
+  }
+  close_fixture(f);
+}
+
+static void test_earlier_report_is_replaced(void **state) {
+  (void)state;
+  fixture *f = open_fixture(support_scenario_text);
+  problem p = {""};
+  for (int i = 0; i < 3; i++) {
+    assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+    assert_int_equal(count_entries(f->target), 4);
+    assert_int_equal(count_entries(f->home), 2); // the scenario and the report: nothing aside
+  }
+  close_fixture(f);
+}
+
+static void expect_refusal(const fixture *f, const char *path, const char *message) {
+  problem p = {""};
+  int entries = count_entries(f->home);
+  assert_int_equal(folder_check(path, &p), TERM_USAGE);
+  assert_int_equal(report_write(&f->report, path, &p), TERM_USAGE);
+  if (!strstr(p.text, message)) fail_msg("'%s' instead of '%s'", p.text, message);
+  assert_int_equal(count_entries(f->home), entries);
+}
+
+static void test_nothing_else_is_replaced(void **state) {
+  (void)state;
+  fixture *f = open_fixture(support_scenario_text);
+  problem p = {""};
+  char *file = support_write(f->home, "plain", "text");
+  expect_refusal(f, file, "not a folder");
+  char *below = NULL, *nowhere = NULL;
+  assert_true(asprintf(&below, "%s/report", file) > 0);
+  assert_true(asprintf(&nowhere, "%s/none/report", f->home) > 0);
+  expect_refusal(f, below, "Not a directory");
+  expect_refusal(f, nowhere, "No such file");
+  expect_refusal(f, "", "empty");
+  expect_refusal(f, f->home, "is not a report");
+  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  char *notes = support_write(f->target, "notes.txt", "mine");
+  expect_refusal(f, f->target, "notes.txt");
+  char *kept = support_read(notes);
+  assert_string_equal(kept, "mine");
+  free(kept);
+  free(notes);
+  free(file);
+  free(below);
+  free(nowhere);
+  close_fixture(f);
+}
+
+static void test_empty_folder_and_link(void **state) {
+  (void)state;
+  fixture *f = open_fixture(support_scenario_text);
+  problem p = {""};
+  char *link = NULL, *slashes = NULL;
+  assert_int_equal(mkdir(f->target, 0777), 0);
+  assert_true(asprintf(&link, "%s/link", f->home) > 0);
+  assert_true(asprintf(&slashes, "%s//", f->target) > 0);
+  assert_int_equal(symlink("report", link), 0);
+  assert_int_equal(report_write(&f->report, link, &p), TERM_DONE);
+  assert_int_equal(report_write(&f->report, slashes, &p), TERM_DONE);
+  struct stat status;
+  assert_int_equal(lstat(link, &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+  assert_int_equal(count_entries(f->target), 4);
+  free(link);
+  free(slashes);
+  close_fixture(f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_structure),
+      cmocka_unit_test(test_failure_is_told),
+      cmocka_unit_test(test_same_twice),
+      cmocka_unit_test(test_csv),
+      cmocka_unit_test(test_earlier_report_is_replaced),
+      cmocka_unit_test(test_nothing_else_is_replaced),
+      cmocka_unit_test(test_empty_folder_and_link),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
