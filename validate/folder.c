@@ -104,8 +104,7 @@ FILE *folder_open(const folder *f, const char *name, problem *p) {
   return stream;
 }
 
-term_exit folder_close(const folder *f, FILE *stream, const char *name, problem *p) {
-  (void)f;
+term_exit folder_close(FILE *stream, const char *name, problem *p) {
   errno = 0;
   bool failed = ferror(stream) != 0;
   failed |= fclose(stream) != 0;

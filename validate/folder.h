@@ -22,7 +22,7 @@ term_exit folder_begin(folder *out, const char *path, problem *p);
 
 // Opens a new file in it; close it with folder_close. NULL on failure.
 FILE *folder_open(const folder *f, const char *name, problem *p);
-term_exit folder_close(const folder *f, FILE *stream, const char *name, problem *p);
+term_exit folder_close(FILE *stream, const char *name, problem *p);
 
 term_exit folder_commit(folder *f, problem *p);
 

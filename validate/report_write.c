@@ -26,7 +26,7 @@ static term_exit write_scenario(const folder *f, const comparison *c, problem *p
     FILE *stream = folder_open(f, names[i], p);
     if (!stream) return TERM_USAGE;
     write_csv(c, i, stream);
-    code = folder_close(f, stream, names[i], p);
+    code = folder_close(stream, names[i], p);
   }
   return code;
 }
@@ -36,7 +36,7 @@ static term_exit write_document(const folder *f, const report *r, problem *p) {
   FILE *stream = folder_open(f, name, p);
   if (!stream) return TERM_USAGE;
   bool written = term_json_write(report_document(r), stream);
-  term_exit code = folder_close(f, stream, name, p);
+  term_exit code = folder_close(stream, name, p);
   if (code != TERM_DONE || written) return code;
   return problem_memory(p);
 }

@@ -44,7 +44,7 @@ static term_exit ride_and_fall_late(trace *out, void *instance, const engine_rid
 
 static void test_later_end_is_named(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_and_fall_late;
   support_run *f = support_open(&wrong, fall_text);
   comparison *c = support_play(f);

@@ -67,7 +67,7 @@ static term_exit evaluate_wrong(engine_instant *out, void *instance, const bike_
 
 static void test_wrong_acceleration_is_L0(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_wrong;
   support_run *f = support_open(&wrong, support_scenario_text);
   support_expect_failure(support_play(f), "L0", "steer_acceleration");
@@ -84,7 +84,7 @@ static term_exit evaluate_never(engine_instant *out, void *instance, const bike_
 
 static void test_refused_state_is_L0(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_never;
   support_run *f = support_open(&wrong, support_scenario_text);
   support_expect_failure(support_play(f), "L0", "no such place");
@@ -100,7 +100,7 @@ static term_exit evaluate_nan(engine_instant *out, void *instance, const bike_st
 
 static void test_nan_at_one_instant_fails(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_nan;
   support_run *f = support_open(&wrong, support_scenario_text);
   support_expect_failure(support_play(f), "L0", "front_force");
@@ -116,7 +116,7 @@ static term_exit ride_from_elsewhere(trace *out, void *instance, const engine_ri
 
 static void test_wrong_start_is_L2(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_from_elsewhere;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
@@ -135,7 +135,7 @@ static term_exit ride_and_gain_energy(trace *out, void *instance, const engine_r
 
 static void test_lost_energy_is_L3(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_and_gain_energy;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
@@ -170,7 +170,7 @@ static term_exit ride_and_be_robbed(trace *out, void *instance, const engine_rid
 
 static void test_stolen_callback_is_invalid(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_and_be_robbed;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
@@ -191,7 +191,7 @@ static term_exit ride_into_nan(trace *out, void *instance, const engine_ride *as
 
 static void test_nan_in_a_ride_is_invalid(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_into_nan;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
@@ -210,7 +210,7 @@ static term_exit ride_and_fall(trace *out, void *instance, const engine_ride *as
 
 static void test_early_end_is_named(void **state) {
   (void)state;
-  engine wrong = support_mujoco();
+  engine wrong = engine_mujoco;
   wrong.ride = ride_and_fall;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);

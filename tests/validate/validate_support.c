@@ -121,7 +121,3 @@ void support_expect_failure(const comparison *c, const char *layer_name, const c
   assert_string_equal(c->first_failure->name, layer_name);
   if (!strstr(c->cause, named)) fail_msg("'%s' does not name %s", c->cause, named);
 }
-
-engine support_mujoco(void) {
-  return engine_mujoco;
-}

@@ -39,7 +39,4 @@ comparison *support_play(support_run *run);
 // The comparison failed, that layer first, and the cause holds that text.
 void support_expect_failure(const comparison *c, const char *layer_name, const char *named);
 
-// The MuJoCo engine under its own name, but with functions that a test may replace.
-engine support_mujoco(void);
-
 #endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stationary motion: the bicycle rides a circle with lean, steer and speed constant.
+//
+// Source: section 4 of Franke, Suhr, Riess (1990), equation (26), figure 2; for hands-free circles
+// also Basu-Mandal, Chatterjee, Papadopoulos, Proc. R. Soc. A 463 (2007).
+//
+// Lean and steer accelerations vanish: two equations (v' = 0 follows) in speed, lean, steer and the
+// rider's offset. Two of the four given leave isolated solutions, one given leaves branches. A
+// steer torque is a constant of the question. Signs as in bicycle/state.h.
+#ifndef BICYCLE_TURN_H
+#define BICYCLE_TURN_H
+
+#include <bicycle/stability.h>
+
+typedef enum bike_turn_variable {
+  BIKE_TURN_SPEED,  // m/s
+  BIKE_TURN_LEAN,   // rad
+  BIKE_TURN_STEER,  // rad
+  BIKE_TURN_OFFSET, // m    the rider's
+  BIKE_TURN_VARIABLES
+} bike_turn_variable;
+
+// What is special about a point of a branch.
+typedef enum bike_turn_mark {
+  BIKE_TURN_PLAIN,    // nothing
+  BIKE_TURN_LARGEST,  // fold: `fold` is largest here, and two solutions meet and end
+  BIKE_TURN_SMALLEST, // fold: `fold` is smallest here
+  BIKE_TURN_STATIC,   // the branch ends at speed zero
+  BIKE_TURN_STRAIGHT  // the branch meets straight riding: at a capsize speed
+} bike_turn_mark;
+
+typedef struct bike_turn {
+  double lean, steer;           // rad
+  double speed;                 // m/s
+  double rider_offset;          // m      right of the file's place
+  double steer_torque;          // N m
+  double yaw_rate;              // rad/s
+  double radius;                // m      of the rear contact's circle; infinite when straight
+  double eps_max;               // 1/s    largest real part of an eigenvalue; < 0: self-stable
+  bike_eigenvalues eigenvalues; //        at constant energy, as bike_linearize
+  double rear_normal, front_normal; // N  a wheel that is pulled on (< 0) has lifted: outside the
+                                    //    model
+  double rear_friction, front_friction; // horizontal / normal force that the ground must hold
+  double residual;              // rad/s^2, m/s^2  largest acceleration left at these numbers
+  int branch;                   //        0: the one through upright riding; others in the order
+                                //        found; -1: not known (lean and steer given)
+  bike_turn_mark mark;          //
+  bike_turn_variable fold;      //        of LARGEST and SMALLEST
+} bike_turn;
+
+typedef struct bike_turn_def {
+  bool given[BIKE_TURN_VARIABLES];   // one or two of them
+  double value[BIKE_TURN_VARIABLES]; // of those given; speed >= 0
+  double steer_torque;               // N m
+  // Where solutions are looked for: magnitudes, all > 0.
+  double lean_limit;   // rad  < pi/2
+  double steer_limit;  // rad  < pi; the geometry ends earlier
+  double offset_limit; // m
+  double speed_limit;  // m/s
+} bike_turn_def;
+
+enum { BIKE_MAX_TURNS = 64 };
+
+typedef struct bike_turns {
+  int count;                       // solutions; 0 where only one variable is given
+  bike_turn turns[BIKE_MAX_TURNS]; // in rising order of lean, then of steer
+  int mark_count;                  // folds and ends of the branches on which they lie
+  bike_turn marks[BIKE_MAX_TURNS]; // in the same order
+  int branch_count;                // branches traced
+  bool straight; // riding straight and upright, at whatever speed, answers the question too
+  double residual; // where NO_CONVERGENCE: the accelerations, rad/s^2, that could not be removed
+} bike_turns;
+
+// Nothing given, no torque; the whole range: lean to 80 deg, steer to 130 deg, offsets to 1 m,
+// speeds to 50 m/s.
+BIKE_API bike_turn_def bike_default_turn_def(void);
+
+// All stationary motions within the limits that have what is given.
+//
+// With speed given the branches are those of that speed, otherwise those of the rider offset given,
+// or, without a rider, of offset zero; `marks` holds their folds in the other given variable (in
+// all three others where one is given), static ends, and meetings with straight riding. With lean
+// and steer, or one of these alone, see below. Every branch that crosses a grid of 2.5 deg in lean
+// and steer is found and traced; a closed one smaller than a mesh may be missed.
+// Lean and steer given: solved in closed form (a cubic in the offset); no branch, no marks.
+// Lean or steer alone is no question: BIKE_ERROR_ARGUMENT.
+//
+// Errors: ARGUMENT, NOT_FINITE, NO_RIDER (an offset other than zero, or one asked for by leaving it
+// out, without a rider), NO_CONVERGENCE with `residual`, MEMORY. No solution is count = 0, not an
+// error.
+BIKE_API int bike_turns_find(bike_turns *out, const bike_model *model, const bike_turn_def *def);
+
+// The one solution near `from`, a solution of a neighbouring question: two variables are given.
+// For sweeps over a plane, as in figure 2. NO_CONVERGENCE where Newton's method does not end near
+// it; out->residual then tells what was left.
+BIKE_API int bike_turn_near(bike_turn *out, const bike_model *model, const bike_turn_def *def,
+                            const bike_turn *from);
+
+// "speed", "lean", "steer", "rider_offset".
+BIKE_API const char *bike_turn_variable_string(bike_turn_variable variable);
+
+#endif

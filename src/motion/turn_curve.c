@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/turn_curve.h"
+
+#include <bicycle/error.h>
+#include <bicycle/state.h>
+#include <math.h>
+#include <string.h>
+
+int turn_curve_init(turn_curve *out, const bike_model *model, const bike_turn_def *def,
+                    bool at_speed) {
+  *out = (turn_curve){.bicycle = turn_bicycle_of(model),
+                      .at_speed = at_speed,
+                      .torque = def->steer_torque,
+                      .def = def};
+  double speed = def->value[BIKE_TURN_SPEED];
+  if (at_speed)
+    out->square = speed * speed;
+  else if (def->given[BIKE_TURN_OFFSET])
+    out->offset = def->value[BIKE_TURN_OFFSET];
+  bike_state standing = {0};
+  double mass[9];
+  int code = bike_mass_matrix(mass, model, &standing, 0);
+  if (code) return code;
+  out->per_inertia[TURN_LEAN_ROW] = 1 / mass[0];
+  out->per_inertia[TURN_STEER_ROW] = 1 / mass[4];
+  return BIKE_OK;
+}
+
+double turn_curve_offset(const turn_curve *c, const double y[Y_SIZE]) {
+  return c->at_speed ? y[Y_LAST] : c->offset;
+}
+
+// v^2 sin(steer)
+static double swept(const turn_curve *c, const double y[Y_SIZE]) {
+  return c->at_speed ? c->square * sin(y[Y_STEER]) : c->bicycle.model->gravity * y[Y_LAST];
+}
+
+double turn_curve_square(const turn_curve *c, const double y[Y_SIZE]) {
+  return c->at_speed ? c->square : swept(c, y) / sin(y[Y_STEER]);
+}
+
+// f = fall + v^2 sin(steer) sweep + (M_S, 0)
+int turn_curve_equations(double f[TURN_ROWS], double J[TURN_ROWS][Y_SIZE], const turn_curve *c,
+                         const double y[Y_SIZE]) {
+  double offset = turn_curve_offset(c, y), s = swept(c, y);
+  turn_forces at;
+  int code = turn_forces_at(&at, &c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
+  if (code) return code;
+  for (int i = 0; i < TURN_ROWS; i++) {
+    double torque = i == TURN_STEER_ROW ? c->torque : 0;
+    f[i] = (at.fall[i] + s * at.sweep[i] + torque) * c->per_inertia[i];
+  }
+  if (!J) return BIKE_OK;
+
+  turn_slopes d;
+  code = turn_slopes_at(&d, &c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
+  if (code) return code;
+  double of_steer = c->at_speed ? c->square * cos(y[Y_STEER]) : 0;
+  for (int i = 0; i < TURN_ROWS; i++) {
+    J[i][Y_LEAN] = d.lean.fall[i] + s * d.lean.sweep[i];
+    J[i][Y_STEER] = d.steer.fall[i] + s * d.steer.sweep[i] + of_steer * at.sweep[i];
+    J[i][Y_LAST] = c->at_speed ? d.offset.fall[i] + s * d.offset.sweep[i]
+                               : c->bicycle.model->gravity * at.sweep[i];
+    for (int j = 0; j < Y_SIZE; j++) J[i][j] *= c->per_inertia[i];
+  }
+  return BIKE_OK;
+}
+
+static double product(const double a[Y_SIZE], const double b[Y_SIZE]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+int turn_curve_tangent(double along[Y_SIZE], const turn_curve *c, const double y[Y_SIZE],
+                       const double direction[Y_SIZE]) {
+  double f[TURN_ROWS], J[TURN_ROWS][Y_SIZE];
+  int code = turn_curve_equations(f, J, c, y);
+  if (code) return code;
+  const double *a = J[0], *b = J[1];
+  double t[Y_SIZE] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                      a[0] * b[1] - a[1] * b[0]};
+  double length = sqrt(product(t, t));
+  if (!(length > 0) || !isfinite(length)) return BIKE_ERROR_NO_CONVERGENCE;
+  if (product(t, direction) < 0) length = -length;
+  for (int j = 0; j < Y_SIZE; j++) along[j] = t[j] / length;
+  return BIKE_OK;
+}
+
+typedef struct plane_question {
+  const turn_curve *curve;
+  const turn_point *from;
+  double distance;
+} plane_question;
+
+// The two equations, and the plane.
+static int in_plane(double *f, double J[NEWTON_MAX][NEWTON_MAX], const double *y,
+                    const void *user) {
+  const plane_question *q = user;
+  int code = turn_curve_equations(f, J, q->curve, y);
+  if (code) return code;
+  f[2] = -q->distance;
+  for (int j = 0; j < Y_SIZE; j++) {
+    f[2] += q->from->along[j] * (y[j] - q->from->y[j]);
+    if (J) J[2][j] = q->from->along[j];
+  }
+  return BIKE_OK;
+}
+
+int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
+                       const turn_point *from, double distance) {
+  // Newton's method ends at the rounding of the terms, 1e-12 rad/s^2 at walking pace and more at
+  // tight fast turns, or far above this; solutions themselves are judged again
+  const double solved = 1e-8;
+  plane_question question = {curve, from, distance};
+  turn_point found = *out;
+  if (newton_solve(solver, found.y, residual, in_plane, &question)) return BIKE_ERROR_GEOMETRY;
+  if (!(*residual <= solved)) return BIKE_ERROR_NO_CONVERGENCE;
+  int code = turn_curve_tangent(found.along, curve, found.y, from->along);
+  if (!code) *out = found;
+  return code;
+}
+
+double turn_curve_beyond(const turn_curve *c, const turn_point *at, bike_turn_variable variable,
+                         double value) {
+  switch (variable) {
+  case BIKE_TURN_LEAN:
+    return at->y[Y_LEAN] - value;
+  case BIKE_TURN_STEER:
+    return at->y[Y_STEER] - value;
+  case BIKE_TURN_OFFSET:
+    return turn_curve_offset(c, at->y) - value;
+  default:
+    // times sin(steer), so that it is smooth where the branch meets straight riding
+    return swept(c, at->y) - value * value * sin(at->y[Y_STEER]);
+  }
+}
+
+double turn_curve_slope(const turn_curve *c, const turn_point *at, bike_turn_variable variable) {
+  const double *y = at->y, *t = at->along;
+  switch (variable) {
+  case BIKE_TURN_LEAN:
+    return t[Y_LEAN];
+  case BIKE_TURN_STEER:
+    return t[Y_STEER];
+  case BIKE_TURN_OFFSET:
+    return c->at_speed ? t[Y_LAST] : 0;
+  default:
+    // of v^2 = g z/sin(steer), times its square
+    return c->at_speed ? 0 : t[Y_LAST] * sin(y[Y_STEER]) - y[Y_LAST] * cos(y[Y_STEER]) * t[Y_STEER];
+  }
+}
+
+bool turn_curve_within(const turn_curve *c, const double y[Y_SIZE]) {
+  return fabs(y[Y_LEAN]) <= c->def->lean_limit && fabs(y[Y_STEER]) <= c->def->steer_limit;
+}
