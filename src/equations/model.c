@@ -70,7 +70,10 @@ int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
   bike_model model = {.geometry = bicycle->geometry,
                       .gravity = bicycle->gravity,
                       .steer_damping = bicycle->steer_damping,
-                      .tilt = upright.tilt};
+                      .tilt = upright.tilt,
+                      .s_tilt = axes.s,
+                      .c_tilt = axes.c,
+                      .tilt_gain = upright.trail * axes.c / upright.wheelbase};
   lump(&model.rear, bicycle, &axes, false);
   lump(&model.front, bicycle, &axes, true);
   find_rider(&model, bicycle, &axes);

@@ -10,7 +10,7 @@ static const double FIRST_STEP = 0.125;
 static const double SMALLEST_STEP = 1e-9;
 
 int rear_angle_continued(start *out, const bike_model *model, double phi, double kappa) {
-  start from = {sin(model->tilt), cos(model->tilt)};
+  start from = {model->s_tilt, model->c_tilt};
   double reached = 0, step = FIRST_STEP;
   while (reached < 1) {
     double next = fmin(1, reached + step);

@@ -38,14 +38,14 @@ static load load_of(const bike_input *in) {
                 in->rider_acceleration};
 }
 
-// Solves the instant from the upright start; where the Newton steps were not enough, from a
+// Solves the instant from the guess near upright; where the Newton steps were not enough, from a
 // start found by continuation.
 static int solve_state(instant *now, const bike_model *model, const bike_state *state,
                        const bike_input *input) {
   if (!finite_state(state) || !finite_input(input)) return BIKE_ERROR_NOT_FINITE;
   if (model->rider_mass == 0 && sways(input)) return BIKE_ERROR_NO_RIDER;
   load in = load_of(input);
-  start from = {sin(model->tilt), cos(model->tilt)};
+  start from = guessed(model, state->steer, state->lean);
   solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
   if (!rear_angle_found(&now->at)) {
     int code = rear_angle_continued(&from, model, state->steer, state->lean);

@@ -45,12 +45,14 @@ typedef struct wrench {
 
 typedef struct kane {
   masses body;
-  twist velocity, rest; // rest: accelerations at u' = 0, gravity as an upward one included
-  wrench need;          // at u' = 0
-  vec rider_rest;       // acceleration of the rider relative to the frame
-  real M[6];            // phi phi, kap kap, v v, phi kap, phi v, kap v
-  real f[3];            // phi, kap, v
-  real pivot[3];        // of the elimination of v, kap, phi
+  twist velocity;
+  twist rest;     // accelerations with u', beta_r'' and Omega' zero, gravity as an upward one
+  wrench need;    // for `rest`
+  vec rider_rest; // acceleration of the rider relative to the frame
+  form along_B, along_Y; // momenta of the speeds' motions along pitch and yaw
+  real M[6];             // phi phi, kap kap, v v, phi kap, phi v, kap v
+  real f[3];             // phi, kap, v
+  real pivot[3];         // of the elimination of v, kap, phi
 } kane;
 
 // Rear body from the rear hub in frame axes (N, p, S), with the rider moved by w to the right.
@@ -122,8 +124,9 @@ static inline void inertia_of(inertia *G, const masses *b, const position *g, re
   G->SS = b->J_S;
 }
 
-static inline void mass_matrix(real M[6], const inertia *G, const rate_forms *q, real spin_r,
+static inline void mass_matrix(kane *k, const inertia *G, const rate_forms *q, real spin_r,
                                real spin_f) {
+  real *M = k->M;
   form b = q->br, o = q->yaw, r = q->spin_r, f = q->spin_f;
   // momenta of the motions phi', kappa', v along the plain ones
   real phi_B = b.phi * G->BB + o.phi * G->BY + G->BS, phi_Y = b.phi * G->BY + o.phi * G->YY + G->YS;
@@ -133,6 +136,8 @@ static inline void mass_matrix(real M[6], const inertia *G, const rate_forms *q,
   real kap_K = b.kap * G->BK + o.kap * G->YK + G->KK;
   real v_B = o.v * G->BY + G->BX, v_Y = o.v * G->YY + G->YX, v_S = o.v * G->YS + G->SX;
   real v_K = o.v * G->YK, v_X = o.v * G->YX + G->XX;
+  k->along_B = (form){phi_B, kap_B, v_B};
+  k->along_Y = (form){phi_Y, kap_Y, v_Y};
   M[0] = b.phi * phi_B + o.phi * phi_Y + phi_S + spin_r * r.phi * r.phi + spin_f * f.phi * f.phi;
   M[1] = b.kap * kap_B + o.kap * kap_Y + kap_K + spin_r * r.kap * r.kap + spin_f * f.kap * f.kap;
   M[2] = o.v * v_Y + v_X + spin_r * r.v * r.v + spin_f * f.v * f.v;
@@ -141,19 +146,16 @@ static inline void mass_matrix(real M[6], const inertia *G, const rate_forms *q,
   M[5] = b.kap * v_B + o.kap * v_Y + v_K + spin_r * r.kap * r.v + spin_f * f.kap * f.v;
 }
 
-// Velocities, and the accelerations that are left at u' = 0. The basis turns with
+// Velocities, and the accelerations that the turning of the axes alone causes: the basis turns with
 // (-Omega sin kap, kappa', Omega cos kap), the frame with beta_r' about e_N more.
-static inline void move_frame(kane *k, const kernel_model *m, const position *g, const rates *q,
-                              const bias *b) {
+static inline void move_frame(kane *k, const kernel_model *m, const position *g, const rates *q) {
   real R = m->geometry.R_r, kap = q->u.kap;
   real turn_N = -q->yaw * g->s_kap, turn_A = q->yaw * g->c_kap;
   real h = q->u.v - R * turn_N; // hub's speed along e_R
   real nought = h - h;
   k->velocity = (twist){{R * kap, h, nought}, {q->br + turn_N, kap, turn_A}};
-  real h_ = R * (b->yaw * g->s_kap + turn_A * kap);
-  k->rest.hub = (vec){-turn_A * h, h_ + turn_A * R * kap, turn_N * h - kap * R * kap};
-  k->rest.turn = (vec){b->br - b->yaw * g->s_kap - turn_A * kap, q->br * turn_A,
-                       b->yaw * g->c_kap + turn_N * kap - q->br * kap};
+  k->rest.hub = (vec){-turn_A * h, 2.0 * R * kap * turn_A, turn_N * h - kap * R * kap};
+  k->rest.turn = (vec){-turn_A * kap, q->br * turn_A, (turn_N - q->br) * kap};
   // whatever stands on the ground is accelerated upwards
   k->rest.hub.x -= m->gravity * g->s_kap;
   k->rest.hub.z += m->gravity * g->c_kap;
@@ -175,7 +177,7 @@ static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, ve
   n->torque = add(n->torque, add(scaled(phi, torque), cross(b->foot, force)));
 }
 
-// Force and torque needed at u' = 0, the wheels' spin-up left out.
+// Force and torque needed for `rest`, the wheels' spin-up left out.
 static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, const load *in) {
   const masses *b = &k->body;
   vec w = k->velocity.turn, a = k->rest.hub, al = k->rest.turn;
@@ -201,7 +203,9 @@ static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, 
   n->torque = add(n->torque, cross(b->rider, push));
 }
 
-// f: torques from outside less what the accelerations at u' = 0 need along each motion.
+// f: torques from outside less what the accelerations at u' = 0 need along each motion. beta_r''
+// and Omega' at u' = 0, which are known last, are motions along pitch and yaw: their momenta are at
+// hand.
 static inline void forces_along(kane *k, const kernel_model *m, const position *g,
                                 const rate_forms *q, const rates *r, const bias *b,
                                 const load *in) {
@@ -210,27 +214,31 @@ static inline void forces_along(kane *k, const kernel_model *m, const position *
   real B = n->torque.x, X = n->force.y, K = R * n->force.x + n->torque.y;
   real Y = R * g->s_kap * X + g->c_kap * n->torque.z - g->s_kap * B;
   real up_r = m->rear.spin_inertia * b->spin_r, up_f = m->front.spin_inertia * b->spin_f;
-  k->f[0] =
-      in->steer_torque - m->steer_damping * r->u.phi -
-      (q->br.phi * B + q->yaw.phi * Y + n->steer + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
-  k->f[1] = in->roll_torque -
-            (q->br.kap * B + q->yaw.kap * Y + K + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
-  k->f[2] = -(q->yaw.v * Y + X + q->spin_r.v * up_r + q->spin_f.v * up_f);
+  form P = k->along_B, S = k->along_Y;
+  k->f[0] = in->steer_torque - m->steer_damping * r->u.phi -
+            (q->br.phi * B + q->yaw.phi * Y + n->steer) -
+            (P.phi * b->br + S.phi * b->yaw + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
+  k->f[1] = in->roll_torque - (q->br.kap * B + q->yaw.kap * Y + K) -
+            (P.kap * b->br + S.kap * b->yaw + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
+  k->f[2] =
+      -(q->yaw.v * Y + X) - (P.v * b->br + S.v * b->yaw + q->spin_r.v * up_r + q->spin_f.v * up_f);
 }
 
-// u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry.
+// u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry. M is ready long before f.
 static inline form solved(kane *k) {
   const real *M = k->M;
   real over_v = 1.0 / M[2];
   real l_kap = M[5] * over_v, l_phi = M[4] * over_v;
   real kk = M[1] - l_kap * M[5], pk = M[3] - l_phi * M[5], pp = M[0] - l_phi * M[4];
-  real l = pk / kk;
+  real over_kk = 1.0 / kk;
+  real l = pk * over_kk;
   real d = pp - l * pk;
+  real over_d = 1.0 / d;
   real r_kap = k->f[1] - l_kap * k->f[2];
   real r_phi = k->f[0] - l_phi * k->f[2] - l * r_kap;
   form a;
-  a.phi = r_phi / d;
-  a.kap = r_kap / kk - l * a.phi;
+  a.phi = r_phi * over_d;
+  a.kap = r_kap * over_kk - l * a.phi;
   a.v = k->f[2] * over_v - l_kap * a.kap - l_phi * a.phi;
   k->pivot[0] = M[2];
   k->pivot[1] = kk;

@@ -15,7 +15,8 @@
 static inline twist accelerated(const instant *now, const kernel_model *m) {
   const position *g = &now->at;
   form a = now->acceleration;
-  real br = applied(now->forms.br, a), yaw = applied(now->forms.yaw, a);
+  real br = now->rest.br + applied(now->forms.br, a);
+  real yaw = now->rest.yaw + applied(now->forms.yaw, a);
   twist t = now->k.rest;
   t.hub.x += m->geometry.R_r * a.kap;
   t.hub.y += a.v + m->geometry.R_r * g->s_kap * yaw;

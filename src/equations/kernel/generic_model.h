@@ -20,6 +20,7 @@ typedef struct kernel_body {
 typedef struct kernel_model {
   kernel_geometry geometry;
   real gravity, steer_damping;
+  real s_tilt, c_tilt, tilt_gain;
   kernel_body rear, front;
   real rider_mass;
   real rider_place[3];
@@ -38,6 +39,9 @@ static inline void kernel_model_of(kernel_model *out, const bike_model *m) {
                                     real_of(g->R_r), real_of(g->R_f)};
   out->gravity = real_of(m->gravity);
   out->steer_damping = real_of(m->steer_damping);
+  out->s_tilt = real_of(m->s_tilt);
+  out->c_tilt = real_of(m->c_tilt);
+  out->tilt_gain = real_of(m->tilt_gain);
   kernel_body_of(&out->rear, &m->rear);
   kernel_body_of(&out->front, &m->front);
   out->rider_mass = real_of(m->rider_mass);

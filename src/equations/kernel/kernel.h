@@ -37,8 +37,8 @@ static inline void solve_instant(instant *out, const kernel_model *m, start from
   inertia G;
   place_masses(&k->body, m, &out->at, in->w);
   inertia_of(&G, &k->body, &out->at, L->R_r);
-  mass_matrix(k->M, &G, &out->forms, m->rear.spin_inertia, m->front.spin_inertia);
-  move_frame(k, m, &out->at, &out->rate, &out->rest);
+  mass_matrix(k, &G, &out->forms, m->rear.spin_inertia, m->front.spin_inertia);
+  move_frame(k, m, &out->at, &out->rate);
   need_at_rest(k, m, &out->rate, in);
   forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest, in);
   out->acceleration = solved(k);

@@ -22,6 +22,8 @@ typedef struct bike_model {
   double gravity;         // m/s^2
   double steer_damping;   // N m s/rad
   double tilt;            // rad     upright beta_r
+  double s_tilt, c_tilt;  //         its sine and cosine
+  double tilt_gain;       //         beta_r = tilt + tilt_gain phi (kappa - s_tilt phi/2) + ...
   bike_body rear;         //         with the rider at rider offset zero
   bike_body front;        //
   double rider_mass;      // kg      0 without a rider

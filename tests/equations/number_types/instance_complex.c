@@ -7,7 +7,7 @@ void run_complex(instance_result *out, const bike_model *model, const bike_state
                  const bike_input *input) {
   kernel_model m;
   kernel_model_of(&m, model);
-  start from = {csin(model->tilt), ccos(model->tilt)};
+  start from = guessed(&m, state->steer, state->lean);
   form u = {state->steer_rate, state->lean_rate, state->speed};
   load in = {input->steer_torque, input->roll_torque, input->rider_offset, input->rider_velocity,
              input->rider_acceleration};

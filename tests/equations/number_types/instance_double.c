@@ -5,7 +5,7 @@
 
 void run_double(instance_result *out, const bike_model *model, const bike_state *state,
                 const bike_input *input) {
-  start from = {sin(model->tilt), cos(model->tilt)};
+  start from = guessed(model, state->steer, state->lean);
   form u = {state->steer_rate, state->lean_rate, state->speed};
   load in = {input->steer_torque, input->roll_torque, input->rider_offset, input->rider_velocity,
              input->rider_acceleration};

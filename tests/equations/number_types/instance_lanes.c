@@ -18,12 +18,11 @@ static void put_model(kernel_model *all, const bike_model *model, int lane) {
 void run_lanes(instance_result out[INSTANCE_LANES], const bike_model model[INSTANCE_LANES],
                const bike_state state[INSTANCE_LANES], const bike_input input[INSTANCE_LANES]) {
   kernel_model m = {0};
-  real phi = real_of(0), kappa = phi, tilt = phi;
+  real phi = real_of(0), kappa = phi;
   form u = {phi, phi, phi};
   load in = {phi, phi, phi, phi, phi};
   for (int i = 0; i < LANES; i++) {
     put_model(&m, &model[i], i);
-    tilt[i] = model[i].tilt;
     phi[i] = state[i].steer;
     kappa[i] = state[i].lean;
     u.phi[i] = state[i].steer_rate;
@@ -35,8 +34,7 @@ void run_lanes(instance_result out[INSTANCE_LANES], const bike_model model[INSTA
     in.w1[i] = input[i].rider_velocity;
     in.w2[i] = input[i].rider_acceleration;
   }
-  start from;
-  real_sincos(tilt, &from.s, &from.c);
+  start from = guessed(&m, phi, kappa);
   instant now;
   solve_instant(&now, &m, from, phi, kappa, u, &in);
   real all[INSTANCE_RESULTS];
