@@ -58,6 +58,10 @@ static void find_rider(bike_model *model, const bike_bicycle *bicycle, const upr
   }
 }
 
+static double reach_of(const bike_geometry *g) {
+  return fabs(g->L_r) + fabs(g->L_f) + fabs(g->L_s) + g->R_r + g->R_f;
+}
+
 int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
   if (!out || !bicycle) return BIKE_ERROR_ARGUMENT;
   int code = bike_check(bicycle, NULL, NULL);
@@ -74,6 +78,7 @@ int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
                       .s_tilt = axes.s,
                       .c_tilt = axes.c,
                       .tilt_gain = upright.trail * axes.c / upright.wheelbase};
+  model.reach = reach_of(&bicycle->geometry);
   lump(&model.rear, bicycle, &axes, false);
   lump(&model.front, bicycle, &axes, true);
   find_rider(&model, bicycle, &axes);

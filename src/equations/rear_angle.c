@@ -16,7 +16,7 @@ int rear_angle_continued(start *out, const bike_model *model, double phi, double
     double next = fmin(1, reached + step);
     position g;
     locate(&g, &model->geometry, from, next * phi, next * kappa);
-    if (rear_angle_found(&g)) {
+    if (rear_angle_found(&g, model)) {
       from = (start){g.s_br, g.c_br};
       reached = next;
     } else if ((step *= 0.5) < SMALLEST_STEP) {

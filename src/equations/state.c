@@ -24,6 +24,12 @@ static bool sways(const bike_input *in) {
 // this is lost in the rounding of the entries (some tens of operations each).
 static const double SMALLEST_PIVOT = 64 * DBL_EPSILON;
 
+// Where the steering axis' point on the ground lies as far before the rear contact as behind the
+// front one, seen along the front wheel, the yaw rate (13) is not determined.
+static bool yaw_determined(const position *g, const bike_model *model) {
+  return fabs(g->D) > 64 * DBL_EPSILON * model->reach;
+}
+
 static bool regular(const kane *k) {
   return k->pivot[0] > 0 && k->pivot[1] > SMALLEST_PIVOT * k->M[1] &&
          k->pivot[2] > SMALLEST_PIVOT * k->M[0];
@@ -47,13 +53,13 @@ static int solve_state(instant *now, const bike_model *model, const bike_state *
   load in = load_of(input);
   start from = guessed(model, state->steer, state->lean);
   solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
-  if (!rear_angle_found(&now->at)) {
+  if (!rear_angle_found(&now->at, model)) {
     int code = rear_angle_continued(&from, model, state->steer, state->lean);
     if (code) return code;
     solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
-    if (!rear_angle_found(&now->at)) return BIKE_ERROR_GEOMETRY;
+    if (!rear_angle_found(&now->at, model)) return BIKE_ERROR_GEOMETRY;
   }
-  if (!regular(&now->k)) return BIKE_ERROR_SINGULAR;
+  if (!yaw_determined(&now->at, model) || !regular(&now->k)) return BIKE_ERROR_SINGULAR;
   form a = now->acceleration;
   return isfinite(a.phi + a.kap + a.v) ? BIKE_OK : BIKE_ERROR_SINGULAR;
 }

@@ -9,50 +9,92 @@
 // roots the number of unstable eigenvalues is constant and tells which roots count.
 #include <bicycle/error.h>
 #include <bicycle/stability.h>
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 // Polynomial in v, lowest power first. Sums of products of some ten terms: long double keeps the
-// roots good to the last digits of double.
+// roots good to the last digits of double. `size` is the sum of what was added without its sign.
 enum { MAX_DEGREE = 6 };
 typedef struct polynomial {
   int degree;
-  long double c[MAX_DEGREE + 1];
+  long double c[MAX_DEGREE + 1], size[MAX_DEGREE + 1];
 } polynomial;
 
 static polynomial product(polynomial a, polynomial b) {
   polynomial p = {.degree = a.degree + b.degree};
-  for (int i = 0; i <= a.degree; i++)
-    for (int j = 0; j <= b.degree; j++) p.c[i + j] += a.c[i] * b.c[j];
+  for (int i = 0; i <= a.degree; i++) {
+    for (int j = 0; j <= b.degree; j++) {
+      p.c[i + j] += a.c[i] * b.c[j];
+      p.size[i + j] += a.size[i] * b.size[j];
+    }
+  }
   return p;
 }
 
-static polynomial sum(polynomial a, polynomial b, long double factor) {
-  polynomial p = {.degree = a.degree > b.degree ? a.degree : b.degree};
+// Adds `factor` times b to a of the same or higher degree.
+static void accumulate(polynomial *a, polynomial b, long double factor) {
+  for (int i = 0; i <= b.degree; i++) {
+    a->c[i] += factor * b.c[i];
+    a->size[i] += fabsl(factor) * b.size[i];
+  }
+}
+
+// Coefficients that are nothing but the rounding of the matrices, which are good to some units in
+// the last place of double, are zero: for a bicycle without trail, say, whole polynomials vanish.
+static polynomial cleaned(polynomial p) {
   for (int i = 0; i <= p.degree; i++)
-    p.c[i] = (i <= a.degree ? a.c[i] : 0) + factor * (i <= b.degree ? b.c[i] : 0);
+    if (fabsl(p.c[i]) <= 64 * (long double)DBL_EPSILON * p.size[i]) p.c[i] = 0;
   return p;
+}
+
+// An entry of a matrix, its size being that of the whole matrix' rounding.
+static void put(polynomial *p, int power, const double matrix[4], int entry, double factor) {
+  double largest = 0;
+  for (int i = 0; i < 4; i++) largest = fmax(largest, fabs(matrix[i]));
+  bool rounding = fabs(matrix[entry]) <= 64 * DBL_EPSILON * largest;
+  p->c[power] = rounding ? 0 : (long double)factor * matrix[entry];
+  p->size[power] = fabsl(p->c[power]);
 }
 
 // a[k], the coefficient of s^k in det(M s^2 + (v C1 + D) s + g K0 + v^2 K2); its degree in v is
 // 4 - k.
 static void characteristic(polynomial a[5], const bike_upright_matrices *m, double gravity,
                            double damping) {
-  polynomial entry[4][3]; // [element][power of s]
+  polynomial entry[4][3] = {0}; // [element][power of s]
   for (int e = 0; e < 4; e++) {
-    entry[e][2] = (polynomial){0, {m->M[e]}};
-    entry[e][1] = (polynomial){1, {e == 3 ? damping : 0, m->C1[e]}};
-    entry[e][0] = (polynomial){2, {gravity * (long double)m->K0[e], 0, m->K2[e]}};
+    for (int k = 0; k < 3; k++) entry[e][k].degree = 2 - k;
+    put(&entry[e][2], 0, m->M, e, 1);
+    put(&entry[e][1], 1, m->C1, e, 1);
+    put(&entry[e][0], 0, m->K0, e, gravity);
+    put(&entry[e][0], 2, m->K2, e, 1);
   }
+  entry[3][1].c[0] = entry[3][1].size[0] = damping;
   for (int k = 0; k < 5; k++) a[k] = (polynomial){.degree = 4 - k};
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
-      a[i + j] = sum(a[i + j], product(entry[0][i], entry[3][j]), 1);
-      a[i + j] = sum(a[i + j], product(entry[1][i], entry[2][j]), -1);
+      accumulate(&a[i + j], product(entry[0][i], entry[3][j]), 1);
+      accumulate(&a[i + j], product(entry[1][i], entry[2][j]), -1);
     }
   }
+  for (int k = 0; k < 5; k++) a[k] = cleaned(a[k]);
+}
+
+// a1 a2 a3 - a1^2 a4 - a0 a3^2
+static polynomial hurwitz_of(const polynomial a[5]) {
+  polynomial h = {.degree = MAX_DEGREE};
+  accumulate(&h, product(product(a[1], a[2]), a[3]), 1);
+  accumulate(&h, product(product(a[1], a[1]), a[4]), -1);
+  accumulate(&h, product(product(a[3], a[3]), a[0]), -1);
+  return cleaned(h);
+}
+
+static bool vanishes(const polynomial *p) {
+  for (int i = 0; i <= p->degree; i++)
+    if (p->c[i] != 0) return false;
+  return true;
 }
 
 static long double value(const polynomial *p, long double v, long double *slope) {
@@ -78,28 +120,32 @@ static double polished(const polynomial *p, double root) {
   return (double)v;
 }
 
-// Leading coefficients that are nothing but rounding, and the factor v that undamped polynomials
-// have, are taken off first: they stand for no speed.
+// Without vanishing leading coefficients and factors v: they stand for no speed.
 static polynomial trimmed(polynomial p) {
-  long double largest = 0;
-  for (int i = 0; i <= p.degree; i++) largest = fmaxl(largest, fabsl(p.c[i]));
-  const long double rounding = 1e-15L * largest; // of entries in double
-  while (p.degree > 0 && fabsl(p.c[p.degree]) <= rounding) p.degree--;
-  while (p.degree > 0 && fabsl(p.c[0]) <= rounding) {
+  while (p.degree > 0 && p.c[p.degree] == 0) p.degree--;
+  while (p.degree > 0 && p.c[0] == 0) {
     memmove(p.c, p.c + 1, (size_t)p.degree * sizeof p.c[0]);
     p.degree--;
   }
   return p;
 }
 
+// Speeds where an eigenvalue may cross the imaginary axis, and where: in pairs off zero, or at
+// zero.
+typedef struct candidate {
+  double v;
+  bool weave;
+} candidate;
+
 typedef struct candidates {
   int count;
-  double v[2 * MAX_DEGREE];
+  candidate at[3 * MAX_DEGREE];
 } candidates;
 
 // Appends the real roots in [low, high]. A double root may come out as a close complex pair: it is
 // kept, as a root that changes nothing is sorted out later.
-static int append_roots(candidates *out, const polynomial *given, double low, double high) {
+static int append_roots(candidates *out, const polynomial *given, bool weave, double low,
+                        double high) {
   polynomial p = trimmed(*given);
   int n = p.degree;
   if (n == 0) return BIKE_OK;
@@ -114,23 +160,34 @@ static int append_roots(candidates *out, const polynomial *given, double low, do
   for (int i = 0; i < n; i++) {
     if (fabs(im[i]) > pair * hypot(re[i], im[i])) continue;
     double v = polished(&p, re[i]);
-    if (v >= low && v <= high && v > 0) out->v[out->count++] = v;
+    if (v >= low && v <= high && v > 0) out->at[out->count++] = (candidate){v, weave};
   }
   return BIKE_OK;
 }
 
 static int rising(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
+  double x = ((const candidate *)a)->v, y = ((const candidate *)b)->v;
   return (x > y) - (x < y);
 }
 
-// Eigenvalues in the right half plane at a speed.
-static int unstable_count(int *out, const bike_model *model, double speed) {
+// Eigenvalues that grow, and those that neither grow nor decay, at a speed.
+typedef struct census {
+  int growing, neutral;
+} census;
+
+static int count_eigenvalues(census *out, const bike_model *model, double speed) {
   bike_eigenvalues e;
   int code = bike_upright_eigenvalues(&e, model, speed);
   if (code) return code;
-  *out = 0;
-  for (int i = 0; i < 4; i++) *out += e.re[i] > 0;
+  double largest = 0;
+  for (int i = 0; i < 4; i++) largest = fmax(largest, hypot(e.re[i], e.im[i]));
+  // a double eigenvalue zero splits by the root of the rounding of A
+  const double neutral = 1e-7 * largest;
+  *out = (census){0};
+  for (int i = 0; i < 4; i++) {
+    out->growing += e.re[i] > neutral;
+    out->neutral += fabs(e.re[i]) <= neutral;
+  }
   return BIKE_OK;
 }
 
@@ -143,22 +200,50 @@ static void add_range(bike_critical_speeds *out, double low, double high) {
   out->ranges[out->range_count++][1] = high;
 }
 
-// Walks along the segments between candidates. A change by one eigenvalue is a capsize, by two a
-// weave.
+static void add_speed(bike_critical_speeds *out, candidate c) {
+  if (c.weave)
+    out->weave[out->weave_count++] = c.v;
+  else
+    out->capsize[out->capsize_count++] = c.v;
+}
+
+// Walks along the segments between candidates; those across which the census changes count. A
+// range is stable where every eigenvalue decays: a neutral one does not.
 static int classify(bike_critical_speeds *out, const candidates *c, const bike_model *model,
                     double low, double high) {
-  int before = -1;
+  census before = {0};
+  bool first = true;
   for (int i = 0; i <= c->count; i++) {
-    double from = i == 0 ? low : c->v[i - 1], to = i == c->count ? high : c->v[i];
+    double from = i == 0 ? low : c->at[i - 1].v, to = i == c->count ? high : c->at[i].v;
     if (!(to > from)) continue;
-    int now, code = unstable_count(&now, model, 0.5 * (from + to));
+    census now;
+    int code = count_eigenvalues(&now, model, 0.5 * (from + to));
     if (code) return code;
-    if (before >= 0 && abs(now - before) == 1) out->capsize[out->capsize_count++] = from;
-    if (before >= 0 && abs(now - before) == 2) out->weave[out->weave_count++] = from;
-    if (now == 0) add_range(out, from, to);
+    if (!first && now.growing != before.growing) add_speed(out, c->at[i - 1]);
+    if (now.growing == 0 && now.neutral == 0) add_range(out, from, to);
     before = now;
+    first = false;
   }
   return BIKE_OK;
+}
+
+// Candidates of the characteristic polynomial. Where a0 vanishes at every speed an eigenvalue is
+// always zero (a bicycle without trail and with its fork's mass on the steering axis): it is
+// divided out, and a second one crosses zero where a1 = 0.
+static int find_candidates(candidates *out, const polynomial a[5], double low, double high) {
+  polynomial hurwitz = hurwitz_of(a);
+  const polynomial *at_zero = &a[0];
+  if (vanishes(&a[0])) {
+    at_zero = &a[1];
+    hurwitz = (polynomial){.degree = MAX_DEGREE};
+    accumulate(&hurwitz, product(a[2], a[3]), 1);
+    accumulate(&hurwitz, product(a[1], a[4]), -1);
+    hurwitz = cleaned(hurwitz);
+  }
+  int code = append_roots(out, at_zero, false, low, high);
+  if (!code) code = append_roots(out, &hurwitz, true, low, high);
+  qsort(out->at, (size_t)out->count, sizeof out->at[0], rising);
+  return code;
 }
 
 int bike_upright_critical_speeds(bike_critical_speeds *out, const bike_model *model, double low,
@@ -170,16 +255,10 @@ int bike_upright_critical_speeds(bike_critical_speeds *out, const bike_model *mo
 
   polynomial a[5];
   characteristic(a, &m, model->gravity, model->steer_damping);
-  polynomial hurwitz = product(product(a[1], a[2]), a[3]);
-  hurwitz = sum(hurwitz, product(product(a[1], a[1]), a[4]), -1);
-  hurwitz = sum(hurwitz, product(product(a[3], a[3]), a[0]), -1);
   candidates c = {0};
-  code = append_roots(&c, &a[0], low, high);
-  if (!code) code = append_roots(&c, &hurwitz, low, high);
-  if (code) return code;
-  qsort(c.v, (size_t)c.count, sizeof c.v[0], rising);
+  code = find_candidates(&c, a, low, high);
   bike_critical_speeds found = {0};
-  code = classify(&found, &c, model, low, high);
+  if (!code) code = classify(&found, &c, model, low, high);
   if (!code) *out = found;
   return code;
 }

@@ -170,22 +170,52 @@ static void scan_pose(scan *t, const bike_bicycle *bicycle, const bike_model *mo
   if (demanded) t->worst_root = fmax(t->worst_root, gap);
 }
 
-static void whole_range_of_lean_and_steer(void **unused) {
-  (void)unused;
+static scan scan_all_poses(const bike_bicycle *bicycle) {
   const double leans[] = {-89.99, -89, -85, -80, -75, -70, -65, -60, -55, -50, -45, -40, -35,
                           -30,    -25, -20, -15, -10, -5,  0,   5,   10,  15,  20,  25,  30,
                           35,     40,  45,  50,  55,  60,  65,  70,  75,  80,  85,  89,  89.99};
+  bike_model model;
+  assert_int_equal(bike_model_init(&model, bicycle), 0);
+  scan t = {0};
+  for (size_t i = 0; i < sizeof leans / sizeof *leans; i++)
+    for (double steer = -179; steer <= 179; steer += 4)
+      scan_pose(&t, bicycle, &model, leans[i] * DEGREE, steer * DEGREE);
+  printf("%-19s %d answered, %d refused, %d demanded; root within %.1e\n", bicycle->name,
+         t.answered, t.refused, t.demanded, t.worst_root);
+  return t;
+}
+
+static void whole_range_of_lean_and_steer(void **unused) {
+  (void)unused;
   for (int b = 0; b < SHIPPED_COUNT; b++) {
     const bike_bicycle bicycle = read_shipped(shipped_bicycles[b].name);
-    bike_model model;
-    assert_int_equal(bike_model_init(&model, &bicycle), 0);
-    scan t = {0};
-    for (size_t i = 0; i < sizeof leans / sizeof *leans; i++)
-      for (double steer = -179; steer <= 179; steer += 4)
-        scan_pose(&t, &bicycle, &model, leans[i] * DEGREE, steer * DEGREE);
-    printf("%-19s %d answered, %d refused, %d demanded; root within %.1e\n",
-           shipped_bicycles[b].name, t.answered, t.refused, t.demanded, t.worst_root);
+    const scan t = scan_all_poses(&bicycle);
     assert_true(t.refused > 0 && t.demanded > 0);
+  }
+}
+
+// The roadster's masses on small wheels far apart, where the lengths of (4) are many wheel radii.
+static bike_bicycle on_small_wheels(double wheelbase, double radius) {
+  bike_bicycle b = read_shipped("roadster");
+  bike_upright upright;
+  b.geometry = bike_geometry_from_wheelbase(wheelbase, 0.05, 0.4, radius, radius);
+  assert_int_equal(bike_upright_position(&upright, &b.geometry), 0);
+  for (int i = 0; i < b.part_count; i++) {
+    bike_part *p = &b.parts[i];
+    if (p->assembly == BIKE_REAR_WHEEL) memcpy(p->position, upright.rear_hub, sizeof p->position);
+    if (p->assembly == BIKE_FRONT_WHEEL) memcpy(p->position, upright.front_hub, sizeof p->position);
+  }
+  snprintf(b.name, sizeof b.name, "wheels of %g m", radius);
+  return b;
+}
+
+static void small_wheels(void **unused) {
+  (void)unused;
+  const double shapes[][2] = {{1.2, 0.03}, {2, 0.09}, {2.5, 0.15}, {2.5, 0.2}};
+  for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+    const bike_bicycle bicycle = on_small_wheels(shapes[i][0], shapes[i][1]);
+    const scan t = scan_all_poses(&bicycle);
+    assert_true(t.demanded > 0);
   }
 }
 
@@ -224,6 +254,7 @@ int main(void) {
       cmocka_unit_test(numbers_that_overflow),
       cmocka_unit_test(rider_input_needs_a_rider),
       cmocka_unit_test(whole_range_of_lean_and_steer),
+      cmocka_unit_test(small_wheels),
       cmocka_unit_test(steep_steer_is_answered),
       cmocka_unit_test(impossible_poses_are_refused),
   };

@@ -160,7 +160,7 @@ static void impossible_start_is_its_own_error(void **state) {
   (void)state;
   bike_model bike = penny_farthing();
   bike_ride_def def = good();
-  def.start = (bike_state){.lean = 0.9, .steer = 1.9, .speed = 3};
+  def.start = (bike_state){.lean = 1.2, .steer = 1.0, .speed = 3};
   bike_snapshot now;
   int expected = bike_evaluate(&now, &bike, &def.start, NULL);
   assert_int_not_equal(expected, 0);

@@ -146,6 +146,43 @@ static void roadster_capsizes_near_seven(void **state) {
   assert_near(found.capsize[0], 7, 0.1);
 }
 
+// Vertical head, no trail, the fork's mass on the steering axis: nothing turns the fork back, an
+// eigenvalue is zero at every speed, and rounding must not decide what is stable.
+static bike_bicycle without_trail(double damping) {
+  bike_bicycle b = bike_default_bicycle();
+  b.steer_damping = damping;
+  b.geometry = bike_geometry_from_wheelbase(1, 0, 0, 0.3, 0.3);
+  const bike_part parts[] = {
+      {"frame", BIKE_REAR_FRAME, false, 80, {0.4, 0, 1}, {0}},
+      {"fork", BIKE_FRONT_FRAME, false, 2, {1, 0, 0.6}, {0.1, 0.1, 0.1}},
+      {"rear wheel", BIKE_REAR_WHEEL, false, 2, {0, 0, 0.3}, {0, 0.1}},
+      {"front wheel", BIKE_FRONT_WHEEL, false, 2, {1, 0, 0.3}, {0, 0.1}},
+  };
+  b.part_count = (int)(sizeof parts / sizeof parts[0]);
+  memcpy(b.parts, parts, sizeof parts);
+  return b;
+}
+
+static void neutral_is_not_stable(void **state) {
+  (void)state;
+  for (int damped = 0; damped < 2; damped++) {
+    bike_bicycle bicycle = without_trail(0.5 * damped);
+    bike_model model = model_of(&bicycle);
+    bike_critical_speeds found;
+    assert_int_equal(bike_upright_critical_speeds(&found, &model, 0, 30), BIKE_OK);
+    assert_int_equal(found.range_count, 0);
+    // where the second eigenvalue crosses zero, a real one: a capsize
+    assert_int_equal(found.capsize_count, 1);
+    assert_int_equal(found.weave_count, damped);
+    // at a capsize two eigenvalues are zero, at a weave one and the real part of a pair
+    int zeros = 0;
+    bike_eigenvalues e;
+    assert_int_equal(bike_upright_eigenvalues(&e, &model, found.capsize[0]), BIKE_OK);
+    for (int i = 0; i < 4; i++) zeros += fabs(e.re[i]) < 1e-6 && fabs(e.im[i]) < 1e-6;
+    assert_int_equal(zeros, 2);
+  }
+}
+
 static void impossible_questions_are_refused(void **state) {
   (void)state;
   bike_model model = shipped_model("benchmark");
@@ -171,6 +208,7 @@ int main(void) {
       cmocka_unit_test(shipped_bicycles_match_a_scan),
       cmocka_unit_test(random_bicycles_match_a_scan),
       cmocka_unit_test(roadster_capsizes_near_seven),
+      cmocka_unit_test(neutral_is_not_stable),
       cmocka_unit_test(impossible_questions_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@ typedef struct position {
   real Q;                // T_r - T_f cos phit: dG/dbeta_r cos beta_r of equation (4)
   real D;                // T_r cos phit - T_f: denominator of equation (13)
   real over_c_kap, over_c_br, over_c_psi, over_c_bf, over_Q, over_D; // reciprocals
-  real residual, scale; // of (4) times cos kappa cos beta_r, and the size of its terms, m
+  real residual; // of (4) times cos kappa cos beta_r, m
 } position;
 
 // Where Newton's method for beta_r starts.
@@ -100,7 +100,6 @@ static inline void locate(position *g, const kernel_geometry *L, start from, rea
   // (4) at the root found
   g->residual =
       L->L_r * cs + L->R_r * g->c_kap + L->L_f * g->tau - L->R_f * g->c_psi - L->L_s * g->a;
-  g->scale = L->R_r * g->c_kap + L->R_f * g->c_psi;
 }
 
 #endif
