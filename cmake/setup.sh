@@ -14,8 +14,11 @@ die() {
   exit 2
 }
 
+# With $test_packages set to yes, those that tests alone need too.
 print_packages() {
-  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/cmake/packages.txt"
+  set -- "$root/cmake/packages.txt"
+  [ "${test_packages:-no}" = no ] || set -- "$@" "$root/cmake/packages-test.txt"
+  sed -e 's/[[:space:]]*#.*//' -e '/^[[:space:]]*$/d' "$@"
 }
 
 # The packages of the list that are not installed, on one line.

@@ -139,8 +139,10 @@ static void put_root_joints(FILE *out, mjcf_root root) {
 static void put_tread(FILE *out, const mjcf_plan *plan, bike_assembly wheel, double radius) {
   if (plan->options->rolling == MJCF_ROLLING_EXACT) return;
   const double size[3] = {radius, 0.001, radius};
-  // As stiff as MuJoCo allows (refsafe: two timesteps), critically damped. Friction 1: dry tarmac.
-  const double solref[2] = {2 * plan->options->timestep, 1};
+  // As stiff as MuJoCo allows (refsafe: two timesteps) unless asked otherwise, critically damped.
+  // Friction 1: dry tarmac.
+  const mjcf_options *asked = plan->options;
+  const double solref[2] = {asked->contact_time > 0 ? asked->contact_time : 2 * asked->timestep, 1};
   const double solimp[3] = {0.99, 0.999, 1e-4}, friction[1] = {1};
   mjcf_indent(out, wheel, 1);
   fprintf(out, "<geom name=\"%s\" type=\"ellipsoid\" mass=\"0\" group=\"3\"",

@@ -31,6 +31,8 @@ typedef struct mjcf_options {
   mjcf_rolling rolling;       //
   mjcf_integrator integrator; //
   double timestep;            // s   > 0
+  double contact_time;        // s   time constant of contacts (solref); 0: two timesteps, which is
+                              //     the least that MuJoCo takes
   double rider_offset;        // m   the rider sits this far to the right of the place in the file
   bool visible;               //     with geometry that looks like a bicycle, lights, cameras
 } mjcf_options;

@@ -2,6 +2,7 @@
 // Tensors between the bicycle, which takes any positive semidefinite one, and MuJoCo, whose
 // compiler takes only those of extended bodies but whose dynamics work with any.
 #include "bicycle_mjcf_internal.h"
+#include "runner_guard.h"
 
 #include <math.h>
 #include <string.h>
@@ -126,6 +127,16 @@ static bool apply_one(mjModel *model, int numeric, const char *body_name, mjcf_e
   return true;
 }
 
+typedef struct constants {
+  mjModel *model;
+  mjData *data;
+} constants;
+
+static void set_constants(void *argument) {
+  constants *c = (constants *)argument;
+  mj_setConst(c->model, c->data);
+}
+
 bool mjcf_apply_inertia(mjModel *model, mjcf_error *error) {
   int applied = 0;
   const size_t prefix = sizeof numeric_prefix - 1;
@@ -138,7 +149,9 @@ bool mjcf_apply_inertia(mjModel *model, mjcf_error *error) {
   if (applied == 0) return true;
   mjData *data = mj_makeData(model);
   if (!data) return mjcf_fail(error, "out of memory");
-  mj_setConst(model, data);
+  // What MuJoCo warns of here it warns of again in the first step, where it ends a ride.
+  guard_report report;
+  guard_call(&report, set_constants, &(constants){model, data});
   mj_deleteData(data);
-  return true;
+  return report.failed ? mjcf_fail(error, "%s", report.error) : true;
 }

@@ -36,6 +36,8 @@ static bool check_options(const bike_bicycle *bicycle, const mjcf_options *optio
                           mjcf_error *error) {
   if (!(options->timestep > 0 && options->timestep <= 1))
     return mjcf_fail(error, "the timestep must be positive and at most 1 s");
+  if (!(options->contact_time >= 0 && options->contact_time <= 1))
+    return mjcf_fail(error, "the time constant of contacts must not be negative, and at most 1 s");
   if (!isfinite(options->rider_offset))
     return mjcf_fail(error, "the rider offset is not a finite number");
   if (options->rider_offset == 0) return true;

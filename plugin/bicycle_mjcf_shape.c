@@ -11,7 +11,16 @@ typedef struct pen {
   FILE *out;
   const mjcf_plan *plan;
   bike_assembly body;
+  int decimals; // of places, m
 } pen;
+
+// A tenth of a millimetre is enough for a bicycle to sit on; of a smaller one the 32 pieces of a
+// tyre must still have two ends each.
+static int find_decimals(const bike_geometry *g) {
+  const double usual = 0.05; // m
+  double radius = fmin(g->R_r, g->R_f);
+  return radius >= usual ? 4 : 4 + (int)ceil(log10(usual / radius));
+}
 
 typedef struct point {
   double f, l, u;
@@ -53,8 +62,9 @@ static void put_segment(const pen *p, const char *type, point a, point b, double
                         const char *material) {
   const double *o = p->plan->body[p->body].origin;
   put_geom(p, type, material, radius, 0);
-  fprintf(p->out, " fromto=\"%.4f %.4f %.4f %.4f %.4f %.4f\"/>\n", a.f - o[0], a.l - o[1],
-          a.u - o[2], b.f - o[0], b.l - o[1], b.u - o[2]);
+  int n = p->decimals;
+  fprintf(p->out, " fromto=\"%.*f %.*f %.*f %.*f %.*f %.*f\"/>\n", n, a.f - o[0], n, a.l - o[1], n,
+          a.u - o[2], n, b.f - o[0], n, b.l - o[1], n, b.u - o[2]);
 }
 
 static void tube(const pen *p, point a, point b, double radius, const char *material) {
@@ -71,7 +81,8 @@ static void tube_pair(const pen *p, point a, point b, double apart, double apart
 static void ball(const pen *p, point c, double radius, const char *material) {
   const double *o = p->plan->body[p->body].origin;
   put_geom(p, "sphere", material, radius, 0);
-  fprintf(p->out, " pos=\"%.4f %.4f %.4f\"/>\n", c.f - o[0], c.l - o[1], c.u - o[2]);
+  int n = p->decimals;
+  fprintf(p->out, " pos=\"%.*f %.*f %.*f\"/>\n", n, c.f - o[0], n, c.l - o[1], n, c.u - o[2]);
 }
 
 //---------------------------------- wheels --------------------------------------------------------
@@ -279,7 +290,7 @@ static void draw_front_frame(const pen *p, const skeleton *s) {
 }
 
 void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body) {
-  const pen p = {out, plan, body};
+  const pen p = {out, plan, body, find_decimals(&plan->bicycle->geometry)};
   skeleton s = find_skeleton(plan);
   switch (body) {
   case BIKE_REAR_FRAME:

@@ -6,9 +6,9 @@
 
 #include "bicycle_mjcf.h"
 
-#include "cli/start.h"
-#include "terminal/command.h"
+#include "terminal/start.h"
 
+int cmd_import(int argc, char **argv);
 int cmd_mjcf(int argc, char **argv);
 int cmd_ride(int argc, char **argv);
 
@@ -23,9 +23,9 @@ typedef struct cmd_model {
 extern const struct argp cmd_model_argp;
 
 // FILE and the start state, every number of it NAN until it is given: `speed` may be missing.
-cli_start cmd_no_start(void);
+term_start cmd_no_start(void);
 
 // Whether any number of the state was given; what was not becomes zero, but for the speed.
-bool cmd_has_start(cli_start *start);
+bool cmd_has_start(term_start *start);
 
 #endif

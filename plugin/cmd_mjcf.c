@@ -29,7 +29,7 @@ static const char documentation[] =
     "bicycle.";
 
 typedef struct arguments {
-  cli_start start;
+  term_start start;
   cmd_model model;
   const char *output; // NULL: the standard output
 } arguments;
@@ -59,11 +59,6 @@ static const struct argp_option options[] = {
     {"rider-offset", KEY_RIDER_OFFSET, "W", 0, "Rider to the right of the file's place, m", 3},
     {0},
 };
-
-static bool ends_with(const char *text, const char *end) {
-  size_t length = strlen(text), tail = strlen(end);
-  return length > tail && strcmp(text + length - tail, end) == 0;
-}
 
 // A state to start from that shows what the bicycle can do: a small push at a speed at which it
 // rights itself.
@@ -135,7 +130,7 @@ static void tell_of_placeholders(const bike_bicycle *bicycle, const char *where)
 
 static term_exit write_model(const arguments *args, const bike_bicycle *bicycle,
                              const mjcf_key *key) {
-  bool binary = args->output && ends_with(args->output, ".mjb");
+  bool binary = args->output && term_ends_with(args->output, ".mjb");
   mjcf_error error = {""};
   char *text = mjcf_text(bicycle, &args->model.options, key, &error);
   // Compiled also where only the text is asked for: no file leaves here that MuJoCo would refuse.
@@ -156,12 +151,12 @@ static term_exit write_model(const arguments *args, const bike_bicycle *bicycle,
 
 int cmd_mjcf(int argc, char **argv) {
   const struct argp_child children[] = {
-      {&cli_start_argp, 0, NULL, 0}, {&cmd_model_argp, 0, NULL, 0}, {0}};
+      {&term_start_argp, 0, NULL, 0}, {&cmd_model_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {.start = cmd_no_start(), .model = {.options = mjcf_default_options()}};
   term_parse(&argp, example, argc, argv, &args);
-  if (args.output && strcmp(args.output, "-") != 0 && !ends_with(args.output, ".xml") &&
-      !ends_with(args.output, ".mjb"))
+  if (args.output && strcmp(args.output, "-") != 0 && !term_ends_with(args.output, ".xml") &&
+      !term_ends_with(args.output, ".mjb"))
     term_usage("--output: '%s' ends neither in .xml nor in .mjb", args.output);
   bool given = cmd_has_start(&args.start);
   if (given && isnan(args.start.state.speed)) term_usage("--speed is missing");

@@ -58,12 +58,12 @@ static const struct argp_option options[] = {
 
 const struct argp cmd_model_argp = {.options = options, .parser = parse};
 
-cli_start cmd_no_start(void) {
-  // has_speed: whether one is needed depends on the file.
-  return (cli_start){.state = {NAN, NAN, NAN, NAN, NAN}, .has_speed = true};
+term_start cmd_no_start(void) {
+  // Whether a speed is needed depends on the file.
+  return (term_start){.state = {NAN, NAN, NAN, NAN, NAN}, .speed_optional = true};
 }
 
-bool cmd_has_start(cli_start *start) {
+bool cmd_has_start(term_start *start) {
   double *numbers[] = {&start->state.lean, &start->state.steer, &start->state.lean_rate,
                        &start->state.steer_rate};
   bool given = !isnan(start->state.speed);

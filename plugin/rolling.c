@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The callback, and putting it into MuJoCo.
+// The callback that makes the discs roll.
 #include "rolling_internal.h"
 
-// Set by roll_install alone, before threads start; read-only after.
-static mjfGeneric previous_control;
-
-static void warn_of_discs(roll_error error, const mjModel *m, const mjData *d) {
-  if (error) roll_warn(ROLL_SAY_DISC, roll_error_string(error), m, d);
-}
-
-static void warn_of_sensors(const mjModel *m, const mjData *d) {
-  for (int i = 0; i < m->nsensor; i++)
-    if (m->sensor_type[i] == mjSENS_FORCE || m->sensor_type[i] == mjSENS_TORQUE)
-      roll_warn(ROLL_SAY_SENSOR,
-                "rolling discs: force and torque sensors do not see the ground's forces", m, d);
-}
+#include <math.h>
 
 // MuJoCo's solver may start from qacc_warmstart: within the constraints it never leaves them,
 // however early it stops.  qacc += M^-1 J^T A^+ (target - J qacc)
@@ -25,16 +13,45 @@ static void project_warmstart(roll_system *s, const mjModel *m, mjData *d) {
   mju_addTo(d->qacc_warmstart, s->dof_work, s->nv);
 }
 
+// A wheel this part of its radius off the ground, or off its velocity by as much in the time in
+// which errors decay (1/5 s), was put there: no integration error comes near it.
+static int is_off(const roll_contact *contact) {
+  const mjtNum share = 0.01, decay = 5;
+  mjtNum most = share * contact->radius, speed2 = 0;
+  if (contact->error || contact->radius == 0) return 0;
+  for (int k = 0; k < contact->rows; k++) {
+    mjtNum speed = mju_dot3(contact->direction[k], contact->velocity);
+    speed2 += speed * speed;
+  }
+  return fabs(contact->height) > most || sqrt(speed2) > decay * most;
+}
+
+static void warn_of_state(const roll_system *s, const mjModel *m, const mjData *d) {
+  if (s->A.repeated)
+    roll_warn(
+        ROLL_SAY_REPEATED,
+        "rolling discs: constraints repeat each other (two discs on one axle?): the motion is "
+        "exact, of the forces the smallest are reported",
+        m, d);
+  for (int i = 0; i < s->contacts; i++)
+    if (is_off(s->contact + i))
+      roll_warn(ROLL_SAY_START,
+                "rolling discs: a wheel is off the ground or slips, more than any error of a fit "
+                "start under a fit timestep: start from roll_project, or take smaller steps",
+                m, d);
+}
+
 static void constrain(const mjModel *m, mjData *d) {
-  int solver_rows = roll_has_solver_rows(m, d);
+  int solver_rows = d->nefc;
   if (solver_rows) roll_reset_solver_rows(m, d);
   mjMARKSTACK;
   roll_system system;
   roll_error error = roll_build_system(&system, m, d);
-  warn_of_discs(error, m, d);
+  if (error) roll_warn(ROLL_SAY_DISC, roll_error_string(error), m, d);
   if (system.rows) {
     roll_set_target(&system, m, d);
     roll_set_lambda(&system, m, d);
+    warn_of_state(&system, m, d);
     mju_mulMatTVec(system.dof_work, system.J, system.lambda, system.rows, system.nv);
     mju_addTo(d->qfrc_passive, system.dof_work, system.nv);
     if (solver_rows) {
@@ -46,27 +63,25 @@ static void constrain(const mjModel *m, mjData *d) {
   if (solver_rows) mj_projectConstraint(m, d); // takes stack itself
 }
 
-void roll_control(const mjModel *m, mjData *d) {
-  mjfGeneric previous = previous_control;
-  if (previous) previous(m, d);
-  if (roll_disc_count(m) == 0) return;
+// Force and torque sensors need a user sensor beside them, or MuJoCo does not call roll_sensor.
+static void warn_of_sensors(const mjModel *m, const mjData *d) {
+  int blind = 0;
+  for (int i = 0; i < m->nsensor; i++) {
+    int type = m->sensor_type[i];
+    if (type == mjSENS_USER && m->sensor_needstage[i] == mjSTAGE_ACC) return;
+    blind |= type == mjSENS_FORCE || type == mjSENS_TORQUE;
+  }
+  if (blind)
+    roll_warn(ROLL_SAY_SENSOR,
+              "rolling discs: force and torque sensors do not see the ground's forces unless the "
+              "model has a user sensor at stage acc, such as <user name=\"rolling:WHEEL:normal\" "
+              "objtype=\"body\" objname=\"WHEEL\" datatype=\"real\" dim=\"1\" needstage=\"acc\"/>",
+              m, d);
+}
+
+void roll_make_roll(const mjModel *m, mjData *d) {
+  roll_marker marker = roll_find_marker(m);
+  if (!roll_is_marked(&marker)) return;
   constrain(m, d);
   warn_of_sensors(m, d);
-}
-
-void roll_install(void) {
-  if (mjcb_control == roll_control) return;
-  previous_control = mjcb_control;
-  mjcb_control = roll_control;
-}
-
-roll_error roll_uninstall(void) {
-  if (mjcb_control != roll_control) return ROLL_NOT_INSTALLED;
-  mjcb_control = previous_control;
-  previous_control = NULL;
-  return ROLL_OK;
-}
-
-int roll_is_installed(void) {
-  return mjcb_control == roll_control;
 }

@@ -9,26 +9,46 @@
 // M^-1 (1e-13 for a mass matrix of condition 1e3).
 static const mjtNum dependent = 1e-10;
 
+// A row counts as empty when its diagonal is less than this part of the largest: no motion can
+// change what it says (the height of a body that only slides). What rounding leaves of such a row
+// is 1e-16 of others, squared; different inverse masses of real mechanisms are far above.
+static const mjtNum empty = 1e-24;
+
 static mjtNum dot(const mjtNum *a, const mjtNum *b, int n) {
   mjtNum sum = 0;
   for (int i = 0; i < n; i++) sum += a[i] * b[i];
   return sum;
 }
 
+// A NaN is the largest, and makes no row empty: it must be seen in the result.
+static mjtNum largest_diagonal(const mjtNum *A, int n) {
+  mjtNum most = 0;
+  for (int i = 0; i < n; i++)
+    if (!(A[i * n + i] <= most)) most = A[i * n + i];
+  return most;
+}
+
 // Makes of a symmetric matrix its lower triangular factor, in place, with a column only for rows
 // that are independent of those before them. Row i of A is not needed once row i of L is there, and
 // pivot[k] >= k: no entry is overwritten before it is used. inverse[k] = 1/L[pivot[k]][k].
-static int factorise(mjtNum *A, mjtNum *inverse, int *pivot, int n) {
+// Returns the rank; counts dependent rows that are not empty in *repeated.
+static int factorise(mjtNum *A, mjtNum *inverse, int *pivot, int *repeated, int n) {
   int rank = 0;
+  mjtNum nothing = empty * largest_diagonal(A, n);
+  *repeated = 0;
   for (int i = 0; i < n; i++) {
     mjtNum *row = A + i * n, diagonal = row[i], left = diagonal;
+    int is_empty = diagonal <= nothing;
     for (int k = 0; k < rank; k++) {
-      row[k] = (row[pivot[k]] - dot(row, A + pivot[k] * n, k)) * inverse[k];
+      row[k] = is_empty ? 0 : (row[pivot[k]] - dot(row, A + pivot[k] * n, k)) * inverse[k];
       left -= row[k] * row[k];
     }
     for (int k = rank; k < n; k++) row[k] = 0;
-    // An independent row opens a column; a NaN counts as independent, to be seen in the result.
-    if (!(left <= dependent * diagonal)) {
+    if (is_empty) continue;
+    // An independent row opens a column; a NaN counts as independent.
+    if (left <= dependent * diagonal) {
+      ++*repeated;
+    } else {
       row[rank] = sqrt(left);
       inverse[rank] = 1 / row[rank];
       pivot[rank++] = i;
@@ -61,10 +81,11 @@ static void gram(mjtNum *G, const roll_factor *f) {
 }
 
 void roll_factorise(roll_factor *f) {
-  f->rank = factorise(f->L, f->inverse, f->pivot, f->n);
+  f->rank = factorise(f->L, f->inverse, f->pivot, &f->repeated, f->n);
   if (f->rank == f->n) return;
+  int none; // columns are independent: full rank again
   gram(f->G, f);
-  factorise(f->G, f->inverse, f->pivot, f->rank); // columns are independent: full rank again
+  factorise(f->G, f->inverse, f->pivot, &none, f->rank);
 }
 
 void roll_solve(mjtNum *x, const roll_factor *f, const mjtNum *b) {

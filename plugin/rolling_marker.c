@@ -1,15 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which discs roll: the tuple "rolling_discs", read from the model at every call (0.1 us), so that
-// nothing needs to be remembered about a model.
+// What rolls: the tuples of the marker, read from the model at every call (0.1 us), so that nothing
+// needs to be remembered about a model.
 #include "rolling_internal.h"
 
 #include <math.h>
+#include <string.h>
 
 roll_marker roll_find_marker(const mjModel *m) {
-  int id = m->ntuple ? mj_name2id(m, mjOBJ_TUPLE, "rolling_discs") : -1;
-  if (id < 0) return (roll_marker){0, 0};
-  return (roll_marker){m->tuple_adr[id], m->tuple_size[id]};
+  static const char prefix[] = "rolling_";
+  roll_marker marker = {{0, 0}, {0, 0}, {0, 0}};
+  for (int i = 0; i < m->ntuple; i++) {
+    const char *name = m->names + m->name_tupleadr[i];
+    if (strncmp(name, prefix, sizeof prefix - 1) != 0) continue;
+    const char *kind = name + sizeof prefix - 1;
+    roll_span span = {m->tuple_adr[i], m->tuple_size[i]};
+    if (strcmp(kind, "discs") == 0) marker.discs = span;
+    if (strcmp(kind, "skates") == 0) marker.skates = span;
+    if (strcmp(kind, "driven") == 0) marker.driven = span;
+  }
+  return marker;
 }
+
+int roll_is_marked(const roll_marker *marker) {
+  return marker->discs.count + marker->skates.count + marker->driven.count > 0;
+}
+
+int roll_is_ground(const mjModel *m, int address) {
+  return m->tuple_objtype[address] == mjOBJ_GEOM &&
+         m->geom_type[m->tuple_objid[address]] == mjGEOM_PLANE;
+}
+
+int roll_count_wheels(const mjModel *m, roll_span span) {
+  int count = 0;
+  for (int i = 0; i < span.count; i++) count += !roll_is_ground(m, span.first + i);
+  return count;
+}
+
+const char *roll_element_name(const mjModel *m, int address) {
+  const char *name = mj_id2name(m, m->tuple_objtype[address], m->tuple_objid[address]);
+  return name ? name : "";
+}
+
+//---------------------------------- ground --------------------------------------------------------
+
+roll_error roll_check_ground(const mjModel *m, int geom) {
+  if (geom < 0) return ROLL_OK;
+  int body = m->geom_bodyid[geom], moves = m->body_weldid[body] != 0;
+  for (; body > 0; body = m->body_parentid[body]) moves |= m->body_mocapid[body] >= 0;
+  return moves ? ROLL_BAD_GROUND : ROLL_OK;
+}
+
+roll_plane roll_read_ground(const mjData *d, int geom) {
+  roll_plane plane = {{0, 0, 0}, {0, 0, 1}};
+  if (geom < 0) return plane;
+  const mjtNum *R = d->geom_xmat + 9 * geom;
+  mju_copy3(plane.origin, d->geom_xpos + 3 * geom);
+  for (int k = 0; k < 3; k++) plane.normal[k] = R[3 * k + 2];
+  return plane;
+}
+
+//---------------------------------- wheels --------------------------------------------------------
 
 // The last joint of a body, if it is a hinge: the only one whose axis is fixed in the body.
 static int last_hinge(const mjModel *m, int body) {
@@ -18,36 +68,112 @@ static int last_hinge(const mjModel *m, int body) {
   return is_hinge ? last : -1;
 }
 
-roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address) {
-  int type = m->tuple_objtype[address], id = m->tuple_objid[address];
-  if (type != mjOBJ_BODY && type != mjOBJ_GEOM) return ROLL_BAD_OBJECT;
-  wheel->geom = type == mjOBJ_GEOM ? id : -1;
-  wheel->body = type == mjOBJ_GEOM ? m->geom_bodyid[id] : id;
-  wheel->hinge = last_hinge(m, wheel->body);
+// 0 for a geom that is not round.
+static mjtNum geom_radius(const mjModel *m, int geom) {
+  const mjtNum *size = m->geom_size + 3 * geom;
+  switch (m->geom_type[geom]) {
+  case mjGEOM_SPHERE:
+  case mjGEOM_CYLINDER:
+    return size[0];
+  case mjGEOM_ELLIPSOID:
+    return fmax(size[0], fmax(size[1], size[2]));
+  default:
+    return 0;
+  }
+}
+
+// Radius of the body's only round geom; 0 without one or with several.
+static mjtNum body_radius(const mjModel *m, int body) {
+  mjtNum radius = 0;
+  for (int i = 0; i < m->body_geomnum[body]; i++) {
+    mjtNum r = geom_radius(m, m->body_geomadr[body] + i);
+    if (r > 0 && radius > 0) return 0;
+    radius = fmax(radius, r);
+  }
+  return radius;
+}
+
+static mjtNum own_radius(const mjModel *m, int objtype, int objid) {
+  if (objtype == mjOBJ_BODY) return body_radius(m, objid);
+  return objtype == mjOBJ_GEOM ? geom_radius(m, objid) : 0;
+}
+
+static int body_of(const mjModel *m, int objtype, int objid) {
+  switch (objtype) {
+  case mjOBJ_BODY:
+    return objid;
+  case mjOBJ_GEOM:
+    return m->geom_bodyid[objid];
+  case mjOBJ_SITE:
+    return m->site_bodyid[objid];
+  default:
+    return -1;
+  }
+}
+
+roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int skate) {
+  int type = wheel->objtype = m->tuple_objtype[address];
+  int id = wheel->objid = m->tuple_objid[address];
+  wheel->skate = skate;
+  wheel->body = body_of(m, type, id);
+  if (wheel->body < 0) return skate ? ROLL_BAD_SKATE : ROLL_BAD_OBJECT;
+  if (skate && type == mjOBJ_BODY) return ROLL_BAD_SKATE;
+  wheel->hinge = skate ? -1 : last_hinge(m, wheel->body);
   wheel->radius = m->tuple_objprm[address];
-  if (!(wheel->radius > 0 && isfinite(wheel->radius))) return ROLL_BAD_RADIUS;
+  if (wheel->radius == 0 && !skate) wheel->radius = own_radius(m, type, id);
+  int has_size = wheel->radius > 0 || (skate && wheel->radius == 0);
+  if (!has_size || !isfinite(wheel->radius)) return ROLL_BAD_RADIUS;
   if (m->body_weldid[wheel->body] == 0) return ROLL_FIXED_BODY;
-  if (wheel->hinge < 0 && wheel->geom < 0) return ROLL_NO_AXLE;
+  if (wheel->hinge < 0 && type == mjOBJ_BODY) return ROLL_NO_AXLE;
   return ROLL_OK;
 }
 
-const roll_plane *roll_ground(void) {
-  static const roll_plane floor = {{0, 0, 0}, {0, 0, 1}};
-  return &floor;
-}
+//---------------------------------- for the host --------------------------------------------------
 
 int roll_disc_count(const mjModel *m) {
-  return roll_find_marker(m).count;
+  roll_marker marker = roll_find_marker(m);
+  return roll_count_wheels(m, marker.discs) + roll_count_wheels(m, marker.skates);
+}
+
+int roll_drive_count(const mjModel *m) {
+  return roll_find_marker(m).driven.count;
+}
+
+// First error among the wheels of a span; *index counts on through them and ends at the faulty one.
+static roll_error check_wheels(int *index, const mjModel *m, roll_span span, int skate) {
+  int ground = -1;
+  for (int address = span.first; address < span.first + span.count; address++) {
+    if (roll_is_ground(m, address)) {
+      ground = m->tuple_objid[address];
+      continue;
+    }
+    roll_wheel wheel;
+    roll_error error = roll_read_wheel(&wheel, m, address, skate);
+    if (!error) error = roll_check_ground(m, ground);
+    if (error) return error;
+    ++*index;
+  }
+  return ROLL_OK;
+}
+
+static roll_error check_drives(int *index, const mjModel *m, roll_span span) {
+  for (int i = 0; i < span.count; i++, ++*index) {
+    roll_error error = roll_check_drive(m, span.first + i);
+    if (error) return error;
+  }
+  return ROLL_OK;
 }
 
 roll_error roll_check(int *element, const mjModel *m) {
   roll_marker marker = roll_find_marker(m);
-  roll_error error = marker.count ? ROLL_OK : ROLL_NO_MARKER;
-  int i = 0;
-  for (; error == ROLL_OK && i < marker.count; i++) {
-    roll_wheel wheel;
-    error = roll_read_wheel(&wheel, m, marker.first + i);
+  int index = 0, at_element = 1;
+  roll_error error = check_wheels(&index, m, marker.discs, 0);
+  if (!error) error = check_wheels(&index, m, marker.skates, 1);
+  if (!error) error = check_drives(&index, m, marker.driven);
+  if (!error) {
+    at_element = 0;
+    error = roll_is_marked(&marker) ? roll_check_sensors(m) : ROLL_NO_MARKER;
   }
-  if (element) *element = error && marker.count ? i - 1 : -1;
+  if (element) *element = error && at_element ? index : -1;
   return error;
 }

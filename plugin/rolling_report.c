@@ -3,23 +3,6 @@
 // callback.
 #include "rolling_internal.h"
 
-static const char *disc_name(const mjModel *m, int address) {
-  const char *name = mj_id2name(m, m->tuple_objtype[address], m->tuple_objid[address]);
-  return name ? name : "";
-}
-
-static void describe(roll_disc *disc, const roll_contact *contact, const mjtNum *lambda) {
-  const mjtNum *u = roll_ground()->normal, *force = lambda + contact->row;
-  disc->body = contact->body;
-  disc->radius = contact->radius;
-  mju_copy3(disc->point, contact->point);
-  mju_copy3(disc->force, force);
-  disc->normal_force = mju_dot3(force, u);
-  disc->height = contact->height;
-  disc->height_rate = mju_dot3(contact->velocity, u);
-  mju_addScl3(disc->slip, contact->velocity, u, -disc->height_rate);
-}
-
 // What the callback added to qfrc_passive is J^T lambda: mj_passive makes the rest anew.
 static void find_forces(roll_system *s, const mjModel *m, mjData *d) {
   mju_copy(s->dof_work, d->qfrc_passive, m->nv);
@@ -34,25 +17,83 @@ static void find_forces(roll_system *s, const mjModel *m, mjData *d) {
   roll_solve(s->lambda, &s->A, s->lambda);
 }
 
+roll_error roll_survey(roll_system *s, const mjModel *m, mjData *d) {
+  if (d->nefc) roll_reset_solver_rows(m, d);
+  roll_error error = roll_build_system(s, m, d);
+  if (error == ROLL_NO_STACK) return error;
+  roll_set_target(s, m, d);
+  find_forces(s, m, d);
+  if (d->nefc) roll_project_solver_rows(s->lambda, s, m, d);
+  return error;
+}
+
+void roll_restore(const mjModel *m, mjData *d) {
+  if (d->nefc) mj_projectConstraint(m, d); // as the callback left it
+}
+
+//---------------------------------- one of them ---------------------------------------------------
+
+void roll_describe_disc(roll_disc *disc, const roll_system *s, int index, const mjModel *m) {
+  const roll_contact *contact = s->contact + index;
+  *disc = (roll_disc){.name = roll_element_name(m, contact->address), .error = contact->error};
+  if (contact->error) return;
+  const mjtNum *u = contact->ground.normal;
+  disc->body = contact->body;
+  disc->radius = contact->radius;
+  mju_copy3(disc->point, contact->point);
+  for (int k = 0; k < contact->rows; k++)
+    mju_addToScl3(disc->force, contact->direction[k], s->lambda[contact->row + k]);
+  disc->normal_force = mju_dot3(disc->force, u);
+  disc->lifts = disc->normal_force < 0;
+  disc->height = contact->height;
+  disc->height_rate = mju_dot3(contact->velocity, u);
+  for (int k = 0; k < contact->rows; k++)
+    mju_addToScl3(disc->slip, contact->direction[k],
+                  mju_dot3(contact->direction[k], contact->velocity));
+  mju_addToScl3(disc->slip, u, -disc->height_rate);
+}
+
+void roll_describe_drive(roll_drive *drive, const roll_system *s, int index, const mjModel *m,
+                         const mjData *d) {
+  const roll_motion *motion = s->motion + index;
+  *drive = (roll_drive){.name = roll_element_name(m, motion->address), .error = motion->error};
+  if (motion->error) return;
+  drive->joint = motion->joint;
+  mju_copy3(drive->motion, motion->wanted);
+  drive->off = motion->off;
+  drive->rate_off = d->qvel[motion->dof] - motion->wanted[1];
+  drive->force = s->lambda[motion->row];
+  drive->power = drive->force * d->qvel[motion->dof];
+}
+
+//---------------------------------- for the host --------------------------------------------------
+
 roll_error roll_discs(roll_disc *discs, int count, const mjModel *m, mjData *d) {
   roll_marker marker = roll_find_marker(m);
-  if (marker.count == 0) return ROLL_NO_MARKER;
-  int solver_rows = roll_has_solver_rows(m, d);
-  if (solver_rows) roll_reset_solver_rows(m, d);
+  if (!roll_is_marked(&marker)) return ROLL_NO_MARKER;
   mjMARKSTACK;
   roll_system system;
-  roll_error error = roll_build_system(&system, m, d);
-  if (error != ROLL_NO_STACK) {
-    roll_set_target(&system, m, d);
-    find_forces(&system, m, d);
-    if (solver_rows) roll_project_solver_rows(system.lambda, &system, m, d);
-  }
+  roll_error error = roll_survey(&system, m, d);
   for (int i = 0; i < count; i++) {
-    discs[i] = (roll_disc){.name = disc_name(m, marker.first + i)};
-    discs[i].error = error == ROLL_NO_STACK ? error : system.contact[i].error;
-    if (!discs[i].error) describe(discs + i, system.contact + i, system.lambda);
+    discs[i] = (roll_disc){.name = "", .error = ROLL_NO_STACK};
+    if (error != ROLL_NO_STACK) roll_describe_disc(discs + i, &system, i, m);
   }
   mjFREESTACK;
-  if (solver_rows) mj_projectConstraint(m, d); // as the callback left it
+  roll_restore(m, d);
+  return error;
+}
+
+roll_error roll_drives(roll_drive *drives, int count, const mjModel *m, mjData *d) {
+  roll_marker marker = roll_find_marker(m);
+  if (!roll_is_marked(&marker)) return ROLL_NO_MARKER;
+  mjMARKSTACK;
+  roll_system system;
+  roll_error error = roll_survey(&system, m, d);
+  for (int i = 0; i < count; i++) {
+    drives[i] = (roll_drive){.name = "", .error = ROLL_NO_STACK};
+    if (error != ROLL_NO_STACK) roll_describe_drive(drives + i, &system, i, m, d);
+  }
+  mjFREESTACK;
+  roll_restore(m, d);
   return error;
 }

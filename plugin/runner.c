@@ -8,8 +8,10 @@
 #include <string.h>
 
 // Takes the model, whatever comes.
-static runner *create(mjModel *model, double rider_offset, runner_status *status,
-                      mjcf_error *error) {
+typedef bool find_map_function(runner_map *map, const mjModel *model, mjcf_error *error);
+
+static runner *create(mjModel *model, double rider_offset, find_map_function *find_map,
+                      runner_status *status, mjcf_error *error) {
   runner *r = (runner *)calloc(1, sizeof *r);
   if (!r) {
     mj_deleteModel(model);
@@ -20,7 +22,7 @@ static runner *create(mjModel *model, double rider_offset, runner_status *status
   r->model = model;
   r->rider_offset = rider_offset;
   *status = RUNNER_MODEL;
-  if (!runner_find_map(&r->map, model, error)) {
+  if (!find_map(&r->map, model, error)) {
     runner_free(r);
     return NULL;
   }
@@ -45,13 +47,19 @@ runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
   plain.visible = false;
   *status = RUNNER_MODEL;
   mjModel *model = mjcf_model(bicycle, &plain, NULL, error);
-  return model ? create(model, options->rider_offset, status, error) : NULL;
+  return model ? create(model, options->rider_offset, runner_find_map, status, error) : NULL;
 }
 
 runner *runner_load(const char *path, runner_status *status, mjcf_error *error) {
   *status = RUNNER_MODEL;
   mjModel *model = mjcf_load(path, error);
-  return model ? create(model, 0, status, error) : NULL;
+  return model ? create(model, 0, runner_find_map, status, error) : NULL;
+}
+
+runner *runner_import(const char *path, runner_status *status, mjcf_error *error) {
+  *status = RUNNER_MODEL;
+  mjModel *model = import_load_rolling(path, error);
+  return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
 }
 
 void runner_free(runner *r) {
@@ -92,7 +100,8 @@ runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *
 }
 
 // After the ride's state was set: as if it never had moved.
-static void begin(runner *r) {
+static void begin(runner *r, const bike_state *asked) {
+  r->asked = *asked;
   r->ride->time = 0;
   r->work = 0;
   r->input = NULL;
@@ -103,7 +112,7 @@ static void begin(runner *r) {
 
 runner_status runner_start(runner *r, const bike_state *state, mjcf_error *error) {
   runner_status status = runner_place(r, r->ride, state, error);
-  if (status == RUNNER_OK) begin(r);
+  if (status == RUNNER_OK) begin(r, state);
   return status;
 }
 
@@ -135,7 +144,8 @@ runner_status runner_start_at_keyframe(runner *r, mjcf_error *error) {
               residual);
     return RUNNER_START;
   }
-  begin(r);
+  // A keyframe says no more than qpos and qvel; but at rest is at rest, not a rounding's speed.
+  begin(r, &(bike_state){NAN, NAN, NAN, NAN, 0});
   return RUNNER_OK;
 }
 

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # The MuJoCo bicycle, its headless rides, and the program bicycle-mujoco.
 add_library(mujoco_runner STATIC
+  bicycle_import.c
+  bicycle_import_geometry.c
+  bicycle_import_joints.c
+  bicycle_import_load.c
+  bicycle_import_mass.c
+  bicycle_import_wheels.c
   bicycle_mjcf.c
   bicycle_mjcf_compile.c
   bicycle_mjcf_inertia.c
@@ -10,6 +16,8 @@ add_library(mujoco_runner STATIC
   runner.c
   runner_check.c
   runner_control.c
+  runner_cvode.c
+  runner_foreign.c
   runner_guard.c
   runner_map.c
   runner_measure.c
@@ -18,17 +26,14 @@ add_library(mujoco_runner STATIC
   runner_start.c)
 target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(mujoco_runner
-  PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE bicycle_options m)
+  PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE SUNDIALS::cvode bicycle_options m)
 
-# Start states and what becomes of rows are those of `bicycle ride`.
 add_executable(bicycle-mujoco
   main.c
+  cmd_import.c
   cmd_mjcf.c
   cmd_model.c
-  cmd_ride.c
-  cmd_ride_options.c
-  ${PROJECT_SOURCE_DIR}/src/cli/ride_record.c
-  ${PROJECT_SOURCE_DIR}/src/cli/start.c)
+  cmd_ride.c)
 target_link_libraries(bicycle-mujoco PRIVATE mujoco_runner terminal bicycle::bicycle bicycle_options)
 set_target_properties(bicycle-mujoco PROPERTIES
   INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")

@@ -26,7 +26,8 @@
   X(RUNNER_INVALID_WARNING, "MuJoCo raised a warning")                                             \
   X(RUNNER_INVALID_TIME, "MuJoCo's time did not grow by one timestep: the state was reset")        \
   X(RUNNER_INVALID_CALLBACK, "mjcb_control is no longer that of exact rolling")                    \
-  X(RUNNER_INVALID_NOT_FINITE, "the state is not finite")
+  X(RUNNER_INVALID_NOT_FINITE, "the state is not finite")                                          \
+  X(RUNNER_INVALID_INTEGRATOR, "the integrator failed")
 
 typedef enum runner_status {
 #define RUNNER_STATUS_CODE(code, text) code,
@@ -48,6 +49,10 @@ runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
                       runner_status *status, mjcf_error *error);
 runner *runner_load(const char *path, runner_status *status, mjcf_error *error);
 void runner_free(runner *r);
+
+// A runner for anybody's model of a bicycle (bicycle_import.h), its wheels made to roll exactly.
+// Its integrator and timestep are those of the file until changed.
+runner *runner_import(const char *path, runner_status *status, mjcf_error *error);
 
 // The compiled model, to be read (Lp tests) or, between rides, changed in integrator, timestep.
 mjModel *runner_model(runner *r);
@@ -87,8 +92,10 @@ runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *
 runner_status runner_start(runner *r, const bike_state *state, mjcf_error *error);
 runner_status runner_start_at_keyframe(runner *r, mjcf_error *error);
 
-// Residual allowed at the start, m and m/s: some hundred roundings of lengths of 1 m and speeds of
-// 10 m/s, and a thousandth of what a ride of 10 s at 1 ms accumulates.
+// Residual allowed at the start, of heights relative to max(1 m, wheel radius), of velocities to
+// max(1 m/s, the largest of the terms that make them up): |v| + |omega| arm of a wheel, which is
+// twice the speed in a straight ride and more where a bicycle turns on the spot. It is some hundred
+// roundings of those, and a thousandth of what a ride of 10 s at 1 ms accumulates.
 #define RUNNER_START_TOLERANCE 1e-13
 
 // The instant at which the ride is. Errors: INVALID_*.
@@ -111,6 +118,9 @@ typedef struct runner_ride_def {
   double sample;                     // s    a multiple of the timestep
   double lean_limit;                 // rad  0 < limit < pi/2
   bool stop_at_lift;                 //      a lift event ends the ride
+  double tolerance;                  //      0: MuJoCo's own integrator. > 0: SUNDIALS' CVODE around
+                                     //      mj_forward instead, with this relative and absolute
+                                     //      tolerance; the timestep then is that of the output
   bike_input_function *input;        //      NULL: hands off; evaluated at every stage of a step
   runner_sample_function *on_sample; //      required
   void *user;                        //      for both functions
@@ -125,10 +135,17 @@ runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjc
 typedef struct runner_ride_result {
   double end_time;                    // s    reached: the duration, or the event that ended it
   bool complete;                      //      the whole duration was ridden
+  bike_sample end;                    //      at end_time, interpolated like the event; meaningful
+                                      //      with RUNNER_OK
   int event_count;                    //      further events than BIKE_MAX_EVENTS are not kept
-  bike_event events[BIKE_MAX_EVENTS]; //      to linear interpolation within a step
-  long steps;                         //
-  double wall_time;                   // s    spent in mj_step alone
+  bike_event events[BIKE_MAX_EVENTS]; //      in order; what holds at the start at exactly 0, the
+                                      //      others to linear interpolation within a step. Those
+                                      //      of bicycle/ride.h, but there is no
+                                      //      BIKE_EVENT_VALIDITY: MuJoCo rides on where the
+                                      //      coordinates of the equations end
+  long steps;                         //      of the integrator
+  long evaluations;                   //      of mj_forward by the integrator
+  double wall_time;                   // s    spent in mj_step or CVODE alone
 } runner_ride_result;
 
 // Rides from the state where runner_start left it, and samples. After every step: no warning, time

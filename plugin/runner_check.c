@@ -47,12 +47,13 @@ static const char *first_warning(const mjData *d, const guard_report *report) {
 runner_status runner_check(const runner *r, const mjData *d, const guard_report *report, int stages,
                            mjcf_error *error) {
   if (report->failed) return fail(error, RUNNER_INVALID_ERROR, d->time, report->error);
-  // Not called as often as the integrator has stages: somebody took ours out of the chain.
-  if (!roll_is_installed() || r->stages != stages)
-    return fail(error, RUNNER_INVALID_CALLBACK, d->time, "");
+  if (!roll_is_installed()) return fail(error, RUNNER_INVALID_CALLBACK, d->time, "");
   if (r->refused != RUNNER_OK) return fail(error, r->refused, d->time, "");
   const char *warning = first_warning(d, report);
   if (warning) return fail(error, RUNNER_INVALID_WARNING, d->time, warning);
+  // Without a warning, after which MuJoCo may begin anew: not called as often as the integrator has
+  // stages, somebody took ours out of the chain.
+  if (r->stages != stages) return fail(error, RUNNER_INVALID_CALLBACK, d->time, "");
   if (!is_finite_state(r->model, d)) return fail(error, RUNNER_INVALID_NOT_FINITE, d->time, "");
   return RUNNER_OK;
 }

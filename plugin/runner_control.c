@@ -32,6 +32,7 @@ static bike_input read_input(runner *r, double time) {
 static void find_heading(double out[3], const runner *r, const mjData *d) {
   const double *n = d->xaxis + 3 * r->map.wheel[RUNNER_REAR].hinge.joint;
   double s = hypot(n[0], n[1]);
+  s *= r->map.wheel[RUNNER_REAR].hinge.sign; // n to the left
   out[0] = n[1] / s, out[1] = -n[0] / s, out[2] = 0;
 }
 
@@ -54,10 +55,10 @@ static void control(const mjModel *m, mjData *d) {
   mju_scl3(torque, heading, in.roll_torque);
   mju_zero(d->qfrc_applied, m->nv);
   mj_applyFT(m, d, no_force, torque, d->xpos + 3 * r->map.frame, r->map.frame, d->qfrc_applied);
-  d->qfrc_applied[steer->dof] += in.steer_torque;
+  d->qfrc_applied[steer->dof] += steer->sign * in.steer_torque;
 
   // P = (M_S - d phi') phi' + roll torque . omega
-  double phi_rate = d->qvel[steer->dof];
+  double phi_rate = steer->sign * d->qvel[steer->dof];
   double power = (in.steer_torque - m->dof_damping[steer->dof] * phi_rate) * phi_rate +
                  mju_dot3(torque, d->cvel + 6 * r->map.frame);
   if (d == r->ride)

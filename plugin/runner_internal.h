@@ -3,25 +3,31 @@
 #ifndef RUNNER_INTERNAL_H
 #define RUNNER_INTERNAL_H
 
+#include "bicycle_import.h"
 #include "runner.h"
 
 enum { RUNNER_REAR, RUNNER_FRONT, RUNNER_WHEELS };
 
 typedef struct runner_hinge {
-  int joint; // id
-  int qpos;  // address
-  int dof;   // address
+  int joint;   // id
+  int qpos;    // address
+  int dof;     // address
+  int sign;    // 1, or -1 where it grows against this project's sense
+  double zero; // rad  of qpos where the bicycle is straight
 } runner_hinge;
 
 typedef struct runner_wheel {
   int body;           // id
   runner_hinge hinge; // axle
+  double hub[3];      // m  in the axes of the body
   double radius;      // m
 } runner_wheel;
 
 // Where in the mjModel the bicycle is; nothing else of the model is known.
 typedef struct runner_map {
-  int frame;               // id of the body rear_frame
+  int frame;               // id of the body rear_frame, or of what else carries the rear wheel
+  bool foreign;            // made by others: of the root nothing is known but that it moves
+  double axes[9];          // columns: (forward, left, up) in the frame body's axes; foreign only
   bool free_root;          // one free joint; otherwise slides x, y, z, hinges yaw, roll, pitch
   int root_qpos, root_dof; // their first addresses
   runner_hinge steer;      //
@@ -36,6 +42,7 @@ struct runner {
   runner_map map;      //
   double rider_offset; // m   that the model was built with
   double yaw;          // rad of the instant before: yaw is continuous
+  bike_state asked;    //     of the ride's start; NAN where nobody said
   // What the control callback reads and writes during a step.
   bike_input_function *input; // NULL: hands off
   void *user;                 // of the input
@@ -50,6 +57,9 @@ struct runner {
 // Finds the bicycle's bodies, joints and radii; false with a text naming what is missing or wrong.
 bool runner_find_map(runner_map *map, const mjModel *model, mjcf_error *error);
 
+// The same for a model with other names, axes or root (bicycle_import.h).
+bool runner_find_foreign_map(runner_map *map, const mjModel *model, mjcf_error *error);
+
 //---------------------------------- the input (runner_control.c) ----------------------------------
 
 // Puts the runner's control callback and, after it, exact rolling into MuJoCo. Again: no effect.
@@ -58,6 +68,21 @@ void runner_install_control(void);
 // From here on the control callback of this thread serves this runner (NULL: none). Returns the one
 // it served before.
 runner *runner_activate(runner *r);
+
+//---------------------------------- another integrator (runner_cvode.c) ---------------------------
+
+// CVODE around mj_forward, in place of mj_step.
+typedef struct runner_cvode runner_cvode;
+
+// Ready to go on from the ride's state at time 0, work 0. NULL: out of memory, or SUNDIALS refused.
+runner_cvode *runner_cvode_create(runner *r, double tolerance);
+void runner_cvode_free(runner_cvode *c);
+
+// Brings the ride's state and the work to a later time. Errors as those of a step.
+runner_status runner_cvode_advance(runner_cvode *c, double time, mjcf_error *error);
+
+long runner_cvode_steps(const runner_cvode *c);
+long runner_cvode_evaluations(const runner_cvode *c);
 
 //---------------------------------- attitude (runner_posture.c) -----------------------------------
 
@@ -69,6 +94,7 @@ typedef struct runner_posture {
   double acceleration[3]; // rad/s^2
 } runner_posture;
 
+// Of a foreign model accelerations need an mj_rnePostConstraint of this moment.
 void runner_read_posture(runner_posture *out, const runner *r, const mjData *d);
 
 // Sets qpos and qvel of the rear frame: hub displaced by `place` from its place at qpos0.
@@ -80,7 +106,11 @@ void runner_write_rates(const runner *r, mjData *d, const double velocity[3], co
 // Places d (time 0) at a state, consistent with both discs on the ground and rolling.
 runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_error *error);
 
-// Largest height error (m) and contact velocity (m/s) of the discs at d.
+// The same for a model made by others (runner_foreign.c); false where no start is found.
+bool runner_place_foreign(const runner *r, mjData *d, const bike_state *state);
+
+// Largest height error and contact velocity of the discs at d, as RUNNER_START_TOLERANCE counts
+// them.
 double runner_residual(const runner *r, const mjData *d);
 
 //---------------------------------- discs and instants (runner_measure.c) -------------------------
@@ -89,6 +119,7 @@ typedef struct runner_disc {
   double point[3];    // m    lowest point
   double height;      // m    above the ground
   double velocity[3]; // m/s  of the wheel's material there
+  double speed;       // m/s  size of the terms that make up this velocity, and may cancel
 } runner_disc;
 
 // Needs positions and mj_comVel of the moment.
@@ -96,6 +127,9 @@ void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wh
 
 // mj_forward on the probe, and all that can be read there.
 runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *error);
+
+// Takes the rounding off the first instant of a ride: what was asked for, and the origin.
+void runner_settle_start(runner_instant *at, const runner *r);
 
 // The checks after every call that advances or evaluates (runner_check.c): errors and warnings of
 // MuJoCo, callback, finite numbers.

@@ -34,8 +34,7 @@ static bool find_joint(runner_hinge *out, const mjModel *m, const char *name, in
     return mjcf_fail(error, "not a bicycle: joint '%s' has another type", name);
   if (mju_norm3(m->jnt_pos + 3 * out->joint) > direction_tolerance)
     return mjcf_fail(error, "not a bicycle: joint '%s' is not in the origin of its body", name);
-  out->qpos = m->jnt_qposadr[out->joint];
-  out->dof = m->jnt_dofadr[out->joint];
+  *out = (runner_hinge){out->joint, m->jnt_qposadr[out->joint], m->jnt_dofadr[out->joint], 1, 0};
   return true;
 }
 
@@ -114,4 +113,31 @@ bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
   if (!(m->jnt_axis[3 * map->steer.joint + 2] > 0))
     return mjcf_fail(error, "not a bicycle: the steering axis does not point upwards");
   return find_radii(map, m, error);
+}
+
+static runner_hinge foreign_hinge(const mjModel *m, int joint, int sign) {
+  int qpos = m->jnt_qposadr[joint];
+  return (runner_hinge){joint, qpos, m->jnt_dofadr[joint], sign, m->qpos0[qpos]};
+}
+
+bool runner_find_foreign_map(runner_map *map, const mjModel *m, mjcf_error *error) {
+  bike_bicycle bicycle;
+  import_map found;
+  *map = (runner_map){.foreign = true, .exact = true};
+  if (!import_bicycle(&bicycle, &found, m, error)) return false;
+  map->frame = found.half[IMPORT_REAR];
+  for (int k = 0; k < 3; k++) {
+    map->axes[3 * k] = found.forward[k];
+    map->axes[3 * k + 1] = found.left[k];
+    map->axes[3 * k + 2] = found.up[k];
+  }
+  map->steer = foreign_hinge(m, found.steer, found.steer_sign);
+  for (int i = 0; i < RUNNER_WHEELS; i++) {
+    runner_wheel *wheel = &map->wheel[i];
+    *wheel = (runner_wheel){.body = found.wheel[i], .radius = found.radius[i]};
+    wheel->hinge = foreign_hinge(m, found.spin[i], found.spin_sign[i]);
+    mju_copy3(wheel->hub, found.hub[i]);
+  }
+  roll_error code = roll_check(NULL, m);
+  return code == ROLL_OK || mjcf_fail(error, "%s", roll_error_string(code));
 }

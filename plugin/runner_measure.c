@@ -9,7 +9,10 @@
 
 void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wheel) {
   const runner_wheel *w = &r->map.wheel[wheel];
-  const double *n = d->xaxis + 3 * w->hinge.joint, *hub = d->xpos + 3 * w->body;
+  const double *n = d->xaxis + 3 * w->hinge.joint;
+  double hub[3];
+  mju_rotVecMat(hub, w->hub, d->xmat + 9 * w->body);
+  mju_addTo3(hub, d->xpos + 3 * w->body);
   // e = -(z - n_z n)/s points from the hub to the lowest point;  height = hub_z - R s
   double s = hypot(n[0], n[1]), arm[3];
   for (int k = 0; k < 3; k++) out->point[k] = hub[k] - w->radius * ((k == 2) - n[2] * n[k]) / s;
@@ -19,6 +22,7 @@ void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wh
   mju_sub3(arm, out->point, d->subtree_com + 3 * r->model->body_rootid[w->body]);
   mju_cross(out->velocity, rotation, arm);
   mju_addTo3(out->velocity, rotation + 3);
+  out->speed = mju_norm3(rotation + 3) + mju_norm3(rotation) * mju_norm3(arm);
 }
 
 double runner_residual(const runner *r, const mjData *d) {
@@ -26,8 +30,9 @@ double runner_residual(const runner *r, const mjData *d) {
   for (int i = 0; i < RUNNER_WHEELS; i++) {
     runner_disc disc;
     runner_find_disc(&disc, r, d, i);
-    largest = fmax(largest, fabs(disc.height));
-    for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(disc.velocity[k]));
+    double length = fmax(1, r->map.wheel[i].radius), speed = fmax(1, disc.speed);
+    largest = fmax(largest, fabs(disc.height) / length);
+    for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(disc.velocity[k]) / speed);
     // fmax drops a NaN
     if (isnan(disc.height + disc.velocity[0] + disc.velocity[1] + disc.velocity[2])) return NAN;
   }
@@ -50,22 +55,20 @@ static void sum_contacts(double force[3], const runner *r, const mjData *d, int 
 }
 
 // Forces of the ground on the wheels, in the world's axes.
-static bool find_forces(double force[RUNNER_WHEELS][3], const runner *r, mjData *d,
-                        mjcf_error *error) {
+static roll_error find_forces(double force[RUNNER_WHEELS][3], const runner *r, mjData *d) {
   if (!r->map.exact) {
     for (int i = 0; i < RUNNER_WHEELS; i++) sum_contacts(force[i], r, d, r->map.wheel[i].body);
-    return true;
+    return ROLL_OK;
   }
   enum { MOST = 8 };
   roll_disc discs[MOST];
   int count = roll_disc_count(r->model);
   if (count > MOST) count = MOST;
   roll_error code = roll_discs(discs, count, r->model, d);
-  if (code != ROLL_OK) return mjcf_fail(error, "%s", roll_error_string(code));
-  for (int i = 0; i < count; i++)
+  for (int i = 0; code == ROLL_OK && i < count; i++)
     for (int k = 0; k < RUNNER_WHEELS; k++)
       if (discs[i].body == r->map.wheel[k].body) mju_copy3(force[k], discs[i].force);
-  return true;
+  return code;
 }
 
 // World to (e_R, left of it, up).
@@ -84,13 +87,15 @@ static void fill_motion(runner_instant *out, const runner *r, const mjData *d) {
   out->yaw_acceleration = p.acceleration[0];
   out->lean_acceleration = p.acceleration[1];
   out->pitch_acceleration = p.acceleration[2];
-  out->steer = d->qpos[r->map.steer.qpos];
-  out->steer_rate = d->qvel[r->map.steer.dof];
-  out->steer_acceleration = d->qacc[r->map.steer.dof];
+  const runner_hinge *steer = &r->map.steer;
+  out->steer = steer->sign * (d->qpos[steer->qpos] - steer->zero);
+  out->steer_rate = steer->sign * d->qvel[steer->dof];
+  out->steer_acceleration = steer->sign * d->qacc[steer->dof];
   for (int i = 0; i < RUNNER_WHEELS; i++) {
-    out->wheel_angle[i] = d->qpos[w[i].hinge.qpos];
-    out->wheel_rate[i] = d->qvel[w[i].hinge.dof];
-    out->wheel_acceleration[i] = d->qacc[w[i].hinge.dof];
+    const runner_hinge *hinge = &w[i].hinge;
+    out->wheel_angle[i] = hinge->sign * (d->qpos[hinge->qpos] - hinge->zero);
+    out->wheel_rate[i] = hinge->sign * d->qvel[hinge->dof];
+    out->wheel_acceleration[i] = hinge->sign * d->qacc[hinge->dof];
   }
   // v = R_r (pitch' + rear_spin')
   out->speed = w[RUNNER_REAR].radius * (out->pitch_rate + out->wheel_rate[RUNNER_REAR]);
@@ -109,27 +114,56 @@ static void fill_contacts(runner_instant *out, const runner *r, const mjData *d)
   }
 }
 
-static void forward(void *argument) {
-  runner *r = (runner *)argument;
+// What was asked for, where the measured value is that but for rounding. A NAN was not asked for.
+static void settle(double *is, double asked) {
+  if (fabs(*is - asked) <= RUNNER_START_TOLERANCE * fmax(1, fabs(asked))) *is = asked;
+}
+
+void runner_settle_start(runner_instant *at, const runner *r) {
+  settle(&at->x, 0);
+  settle(&at->y, 0);
+  settle(&at->yaw, 0);
+  settle(&at->lean, r->asked.lean);
+  settle(&at->steer, r->asked.steer);
+  settle(&at->lean_rate, r->asked.lean_rate);
+  settle(&at->steer_rate, r->asked.steer_rate);
+  settle(&at->speed, r->asked.speed);
+}
+
+typedef struct measuring {
+  runner *r;
+  double force[RUNNER_WHEELS][3];
+  roll_error code;
+} measuring;
+
+// All that asks MuJoCo: whatever it has to say then is ours to say.
+static void measure(void *argument) {
+  measuring *m = (measuring *)argument;
+  runner *r = m->r;
   mj_forward(r->model, r->probe);
+  if (r->map.foreign) mj_rnePostConstraint(r->model, r->probe);
+  m->code = find_forces(m->force, r, r->probe);
 }
 
 runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *error) {
   guard_report report;
   r->stages = 0;
   r->refused = RUNNER_OK;
+  measuring m = {.r = r};
   runner *before = runner_activate(r);
-  guard_call(&report, forward, r);
+  guard_call(&report, measure, &m);
   runner_activate(before);
   runner_status status = runner_check(r, r->probe, &report, 1, error);
   if (status != RUNNER_OK) return status;
 
-  double force[RUNNER_WHEELS][3] = {{0}};
-  if (!find_forces(force, r, r->probe, error)) return RUNNER_INVALID_WARNING;
+  if (m.code != ROLL_OK) {
+    mjcf_fail(error, "%s", roll_error_string(m.code));
+    return RUNNER_INVALID_WARNING;
+  }
   *out = (runner_instant){
       .potential = r->probe->energy[0], .kinetic = r->probe->energy[1], .power = r->probe_power};
   fill_motion(out, r, r->probe);
   fill_contacts(out, r, r->probe);
-  for (int i = 0; i < RUNNER_WHEELS; i++) turn_into_heading(out->force[i], force[i], out->yaw);
+  for (int i = 0; i < RUNNER_WHEELS; i++) turn_into_heading(out->force[i], m.force[i], out->yaw);
   return RUNNER_OK;
 }

@@ -16,11 +16,9 @@ static void read_hinges(runner_posture *out, const runner *r, const mjData *d) {
 
 // The frame's axle direction n = R y = (-sin yaw cos roll, cos yaw cos roll, sin roll) and its
 // derivatives give yaw and roll; what is left of the rotation about n is pitch.
-static void read_free(runner_posture *out, const runner *r, const mjData *d) {
-  double R[9], w[3], a[3], n[3], n1[3], n2[3], turning[3];
-  mju_quat2Mat(R, d->qpos + r->map.root_qpos + 3);
-  mju_rotVecMat(w, d->qvel + r->map.root_dof + 3, R); // a free joint's rotation is in its body
-  mju_rotVecMat(a, d->qacc + r->map.root_dof + 3, R);
+static void read_rotation(runner_posture *out, const double R[9], const double w[3],
+                          const double a[3]) {
+  double n[3], n1[3], n2[3], turning[3];
   for (int k = 0; k < 3; k++) n[k] = R[3 * k + 1];
   // n' = w x n,  n'' = a x n + w x n'
   mju_cross(n1, w, n);
@@ -44,8 +42,25 @@ static void read_free(runner_posture *out, const runner *r, const mjData *d) {
   out->acceleration[PITCH] = mju_dot3(a, n) - yaw2 * n[2] - yaw1 * n1[2];
 }
 
+static void read_free(runner_posture *out, const runner *r, const mjData *d) {
+  double R[9], w[3], a[3];
+  mju_quat2Mat(R, d->qpos + r->map.root_qpos + 3);
+  mju_rotVecMat(w, d->qvel + r->map.root_dof + 3, R); // a free joint's rotation is in its body
+  mju_rotVecMat(a, d->qacc + r->map.root_dof + 3, R);
+  read_rotation(out, R, w, a);
+}
+
+// From the body in the world, whatever holds it: rotations of cvel and cacc are the world's.
+static void read_foreign(runner_posture *out, const runner *r, const mjData *d) {
+  double R[9];
+  mju_mulMatMat(R, d->xmat + 9 * r->map.frame, r->map.axes, 3, 3, 3);
+  read_rotation(out, R, d->cvel + 6 * r->map.frame, d->cacc + 6 * r->map.frame);
+}
+
 void runner_read_posture(runner_posture *out, const runner *r, const mjData *d) {
-  if (r->map.free_root)
+  if (r->map.foreign)
+    read_foreign(out, r, d);
+  else if (r->map.free_root)
     read_free(out, r, d);
   else
     read_hinges(out, r, d);

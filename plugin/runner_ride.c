@@ -4,6 +4,7 @@
 #include "runner_internal.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 runner_ride_def runner_default_ride_def(void) {
@@ -17,8 +18,10 @@ typedef struct course {
   const runner_ride_def *def;
   runner_ride_result *out;
   mjcf_error *error;
-  double step;       // s
-  runner_instant at; // the newest instant
+  double step;         // s
+  runner_cvode *cvode; // NULL: mj_step
+  double start_speed;  // m/s
+  runner_instant at;   // the newest instant
 } course;
 
 static runner_status refuse(mjcf_error *error, const char *text) {
@@ -42,40 +45,51 @@ runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjc
     return refuse(error, "the duration must be positive");
   if (!(def->sample > 0 && def->sample <= def->duration))
     return refuse(error, "the sample interval must be positive and at most the duration");
+  if (!(step > 0 && isfinite(step))) return refuse(error, "the model's timestep must be positive");
   if (!divides(&times, def->sample, step))
     return refuse(error, "the sample interval must be a multiple of the timestep");
   if (!divides(&times, def->duration, step))
     return refuse(error, "the duration must be a multiple of the timestep");
   if (!(def->lean_limit > 0 && def->lean_limit < mjPI / 2))
-    return refuse(error, "the lean limit must lie between 0 and 90 deg");
+    return refuse(error, "the lean limit must be above 0 and below 90 deg: lying flat, the axes of "
+                         "yaw and pitch are one");
+  // Below a few roundings no step is accurate enough.
+  if (!(def->tolerance == 0 || (def->tolerance >= 1e-15 && def->tolerance < 1)))
+    return refuse(error, "the tolerance must be 0, or lie between 1e-15 and 1");
   return RUNNER_OK;
 }
 
+// As in the rows of the analytic ride: with the sign of the normal force, and 0 where nothing is
+// asked of the ground.
 static double friction_of(const double force[3]) {
-  return hypot(force[0], force[1]) / force[2];
+  double horizontal = hypot(force[0], force[1]);
+  return horizontal == 0 ? 0 : horizontal / force[2];
+}
+
+static bike_sample row_of(const runner_instant *a, double time) {
+  return (bike_sample){.time = time,
+                       .x = a->x,
+                       .y = a->y,
+                       .yaw = a->yaw,
+                       .lean = a->lean,
+                       .pitch = a->pitch,
+                       .steer = a->steer,
+                       .lean_rate = a->lean_rate,
+                       .steer_rate = a->steer_rate,
+                       .speed = a->speed,
+                       .rear_angle = a->wheel_angle[RUNNER_REAR],
+                       .front_angle = a->wheel_angle[RUNNER_FRONT],
+                       .energy = a->kinetic + a->potential,
+                       .rear_normal = a->force[RUNNER_REAR][2],
+                       .front_normal = a->force[RUNNER_FRONT][2],
+                       .rear_friction = friction_of(a->force[RUNNER_REAR]),
+                       .front_friction = friction_of(a->force[RUNNER_FRONT])};
 }
 
 // Nonzero if the caller wants to stop.
 static int emit(const course *c, double time) {
   const runner_instant *a = &c->at;
-  runner_sample s = {.row = {.time = time,
-                             .x = a->x,
-                             .y = a->y,
-                             .yaw = a->yaw,
-                             .lean = a->lean,
-                             .pitch = a->pitch,
-                             .steer = a->steer,
-                             .lean_rate = a->lean_rate,
-                             .steer_rate = a->steer_rate,
-                             .speed = a->speed,
-                             .rear_angle = a->wheel_angle[RUNNER_REAR],
-                             .front_angle = a->wheel_angle[RUNNER_FRONT],
-                             .energy = a->kinetic + a->potential,
-                             .rear_normal = a->force[RUNNER_REAR][2],
-                             .front_normal = a->force[RUNNER_FRONT][2],
-                             .rear_friction = friction_of(a->force[RUNNER_REAR]),
-                             .front_friction = friction_of(a->force[RUNNER_FRONT])},
-                     .more = {.work = c->r->work}};
+  runner_sample s = {.row = row_of(a, time), .more = {.work = c->r->work}};
   mju_copy3(s.more.rear_force, a->force[RUNNER_REAR]);
   mju_copy3(s.more.front_force, a->force[RUNNER_FRONT]);
   for (int i = 0; i < RUNNER_WHEELS; i++) {
@@ -88,38 +102,84 @@ static int emit(const course *c, double time) {
 
 //---------------------------------- events --------------------------------------------------------
 
-// Time at which a quantity that falls through zero within the last step did so, or NAN.
-static double fall_time(const course *c, double end, double before, double after) {
-  if (!(before > 0 && after <= 0)) return NAN;
-  return end - c->step * after / (after - before);
+// The events are those of bicycle/ride.h but for BIKE_EVENT_VALIDITY: MuJoCo's coordinates do not
+// end where those of the equations do.
+enum { EVENT_KINDS = BIKE_EVENT_STANDSTILL + 1 };
+
+// One number for each kind of event, positive until it happens.
+typedef struct indicators {
+  double g[EVENT_KINDS];
+} indicators;
+
+static indicators indicate(const course *c, const runner_instant *at) {
+  indicators i;
+  i.g[BIKE_EVENT_REAR_LIFT] = at->force[RUNNER_REAR][2];
+  i.g[BIKE_EVENT_FRONT_LIFT] = at->force[RUNNER_FRONT][2];
+  i.g[BIKE_EVENT_LEAN_LIMIT] = c->def->lean_limit - fabs(at->lean);
+  i.g[BIKE_EVENT_VALIDITY] = 1;
+  // Who starts at rest rolls to and fro while he falls: standing still is for whoever moved.
+  i.g[BIKE_EVENT_STANDSTILL] = c->start_speed == 0 ? 1 : copysign(1, c->start_speed) * at->speed;
+  return i;
 }
 
-// Time of an event that did not happen: NAN. What comes after the end is not noted.
-static void note(const course *c, bike_event_kind kind, double time, double end) {
-  if (isnan(time) || time > end) return;
-  if (c->out->event_count < BIKE_MAX_EVENTS)
-    c->out->events[c->out->event_count] = (bike_event){kind, time};
-  c->out->event_count++;
+static bool ends_ride(const course *c, int kind) {
+  bool lift = kind == BIKE_EVENT_REAR_LIFT || kind == BIKE_EVENT_FRONT_LIFT;
+  return !lift || c->def->stop_at_lift;
 }
 
-// Notes what happened between two instants; the time of what ends the ride, or NAN.
+// Notes events in the order of their times, up to what ends the ride; the time of that, or NAN.
+// The time of an event that did not happen is NAN.
+static double note_in_order(const course *c, double time[EVENT_KINDS]) {
+  for (;;) {
+    int first = -1;
+    for (int k = 0; k < EVENT_KINDS; k++)
+      if (!isnan(time[k]) && (first < 0 || time[k] < time[first])) first = k;
+    if (first < 0) return NAN;
+    if (c->out->event_count < BIKE_MAX_EVENTS)
+      c->out->events[c->out->event_count] = (bike_event){(bike_event_kind)first, time[first]};
+    c->out->event_count++;
+    if (ends_ride(c, first)) return time[first];
+    time[first] = NAN;
+  }
+}
+
+// What already holds at the start happens at time 0.
+static double find_events_at_start(const course *c) {
+  const indicators now = indicate(c, &c->at);
+  double time[EVENT_KINDS];
+  for (int k = 0; k < EVENT_KINDS; k++) time[k] = now.g[k] > 0 ? NAN : 0;
+  return note_in_order(c, time);
+}
+
+// What happened within the step that ended at `now`: where the chord meets zero.
 static double find_events(const course *c, double now, const runner_instant *before) {
-  const runner_instant *after = &c->at;
-  double limit = c->def->lean_limit, lift[RUNNER_WHEELS];
-  for (int i = 0; i < RUNNER_WHEELS; i++)
-    lift[i] = fall_time(c, now, before->force[i][2], after->force[i][2]);
-  double fallen = fall_time(c, now, limit - fabs(before->lean), limit - fabs(after->lean));
-  // Standing still is for whoever moved: forwards or backwards.
-  double sense = before->speed < 0 ? -1 : 1;
-  double stopped = fall_time(c, now, sense * before->speed, sense * after->speed);
-  // fmin takes the number where the other one is NAN.
-  double end = fmin(fallen, stopped);
-  if (c->def->stop_at_lift) end = fmin(end, fmin(lift[RUNNER_REAR], lift[RUNNER_FRONT]));
-  note(c, BIKE_EVENT_REAR_LIFT, lift[RUNNER_REAR], end);
-  note(c, BIKE_EVENT_FRONT_LIFT, lift[RUNNER_FRONT], end);
-  note(c, BIKE_EVENT_LEAN_LIMIT, fallen, end);
-  note(c, BIKE_EVENT_STANDSTILL, stopped, end);
-  return end;
+  const indicators a = indicate(c, before), b = indicate(c, &c->at);
+  double time[EVENT_KINDS];
+  for (int k = 0; k < EVENT_KINDS; k++) {
+    bool happened = a.g[k] > 0 && b.g[k] <= 0;
+    time[k] = happened ? now - c->step * b.g[k] / (b.g[k] - a.g[k]) : NAN;
+  }
+  return note_in_order(c, time);
+}
+
+// Where the chord between two instants is at a share of the step: as exact as the event's time.
+static runner_instant between(const runner_instant *before, const runner_instant *after,
+                              double share) {
+  enum { NUMBERS = sizeof(runner_instant) / sizeof(double) };
+  double a[NUMBERS], b[NUMBERS];
+  runner_instant mixed;
+  memcpy(a, before, sizeof a);
+  memcpy(b, after, sizeof b);
+  for (int i = 0; i < NUMBERS; i++) a[i] += share * (b[i] - a[i]);
+  memcpy(&mixed, a, sizeof mixed);
+  return mixed;
+}
+
+// The end of a ride at `time`, within the step that ended at `now`.
+static void end_within(const course *c, double time, double now, const runner_instant *before) {
+  runner_instant end = between(before, &c->at, 1 - (now - time) / c->step);
+  c->out->end_time = time;
+  c->out->end = row_of(&end, time);
 }
 
 //---------------------------------- steps ---------------------------------------------------------
@@ -135,8 +195,19 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+// The same stretch by CVODE.
+static runner_status advance_cvode(course *c, long number) {
+  double start = seconds();
+  runner_status status = runner_cvode_advance(c->cvode, (double)(number + 1) * c->step, c->error);
+  c->out->wall_time += seconds() - start;
+  c->out->steps = runner_cvode_steps(c->cvode);
+  c->out->evaluations = runner_cvode_evaluations(c->cvode);
+  return status;
+}
+
 // One mj_step from number * step on, and whether it can be trusted.
 static runner_status advance(course *c, long number) {
+  if (c->cvode) return advance_cvode(c, number);
   runner *r = c->r;
   guard_report report;
   double from = (double)number * c->step;
@@ -158,6 +229,7 @@ static runner_status advance(course *c, long number) {
   }
   r->ride->time = (double)(number + 1) * c->step;
   c->out->steps++;
+  c->out->evaluations += stages;
   return RUNNER_OK;
 }
 
@@ -167,18 +239,26 @@ static runner_status ride(course *c) {
   divides(&steps_per_sample, c->def->sample, c->step);
   runner_status status = runner_measure(&c->at, c->r, c->error);
   if (status != RUNNER_OK) return status;
+  runner_settle_start(&c->at, c->r);
+  c->start_speed = c->at.speed;
   if (emit(c, 0) != 0) return RUNNER_INTERRUPTED;
+  c->out->end = row_of(&c->at, 0);
+  if (!isnan(find_events_at_start(c))) return RUNNER_OK;
   for (long i = 1; i <= steps; i++) {
     const runner_instant before = c->at;
     status = advance(c, i - 1);
     if (status == RUNNER_OK) status = runner_measure(&c->at, c->r, c->error);
     if (status != RUNNER_OK) return status;
     double end = find_events(c, (double)i * c->step, &before);
-    c->out->end_time = isnan(end) ? (double)i * c->step : end;
-    if (!isnan(end)) return RUNNER_OK;
+    c->out->end_time = (double)i * c->step;
+    if (!isnan(end)) {
+      end_within(c, end, c->out->end_time, &before);
+      return RUNNER_OK;
+    }
     if (i % steps_per_sample == 0 && emit(c, (double)(i / steps_per_sample) * c->def->sample) != 0)
       return RUNNER_INTERRUPTED;
   }
+  c->out->end = row_of(&c->at, c->out->end_time);
   c->out->complete = true;
   return RUNNER_OK;
 }
@@ -193,7 +273,15 @@ runner_status runner_ride(runner_ride_result *out, runner *r, const runner_ride_
   r->user = def->user;
   r->work = 0;
   r->ride->time = 0;
+  if (def->tolerance > 0) {
+    c.cvode = runner_cvode_create(r, def->tolerance);
+    if (!c.cvode) {
+      mjcf_fail(error, "%s", runner_status_string(RUNNER_MEMORY));
+      return RUNNER_MEMORY;
+    }
+  }
   status = ride(&c);
+  runner_cvode_free(c.cvode);
   r->input = NULL;
   r->user = NULL;
   if (status == RUNNER_INTERRUPTED) mjcf_fail(error, "%s", runner_status_string(status));

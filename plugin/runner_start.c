@@ -138,6 +138,10 @@ static bool find_rates(start *s) {
 
 static void find_start(void *argument) {
   start *s = (start *)argument;
+  if (s->r->map.foreign) {
+    s->found = runner_place_foreign(s->r, s->d, s->state);
+    return;
+  }
   mj_resetData(s->r->model, s->d);
   s->found =
       find_position(s) && find_rates(s) && runner_residual(s->r, s->d) <= RUNNER_START_TOLERANCE;

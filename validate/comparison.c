@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison.h"
 
+#include "comparison_explain.h"
+#include "horizon.h"
 #include "layer.h"
 #include "terminal/message.h"
 
@@ -37,12 +39,18 @@ static term_exit open_side(comparison_side *side, const engine_choice *choice, c
   term_exit code = TERM_INVALID;
   side->engine = choice->engine;
   snprintf(side->label, sizeof side->label, "%s", label);
-  side->instance = side->engine->create(bicycle, choice->option, &code, p);
+  side->instance = side->engine->create(bicycle, choice, &code, p);
   return side->instance ? TERM_DONE : problem_prefix(p, code, side->label);
+}
+
+// How many rides the layers will ask for; only the progress depends on it.
+static int count_rides(const scenario *s) {
+  return 2 + s->convergence.count + (s->horizon.asked ? 2 : 0) + 2 * s->cost.repeats;
 }
 
 term_exit comparison_open(comparison *c, const scenario *s, problem *p) {
   *c = (comparison){.scenario = s, .weight = s->model.total_mass * s->model.gravity};
+  c->rides = count_rides(s);
   const engine *reference = s->reference.engine, *candidate = s->candidate.engine;
   bool alike = strcmp(reference->name, candidate->name) == 0;
   term_exit code = resolve_growth(c, p);
@@ -62,44 +70,54 @@ void comparison_close(comparison *c) {
   }
   measurement_clear(&c->measurements);
   gates_clear(&c->gates);
+  study_clear(&c->study);
   *c = (comparison){0};
 }
 
-// Rides of the two engines, one after the other, make up the progress of a scenario.
-typedef struct ride_progress {
-  comparison *c;
-  int side;
-} ride_progress;
-
+// Every ride counts alike in the progress of a scenario.
 static bool ride_progressed(double share, void *user) {
-  const ride_progress *r = user;
-  if (r->c->progress) r->c->progress(0.5 * (r->side + share), r->c->user);
+  const comparison *c = user;
+  if (c->progress) c->progress(fmin(1, (c->played + share) / c->rides), c->user);
   return true;
 }
 
-static term_exit ride_side(comparison *c, int side, problem *p) {
-  comparison_side *s = &c->side[side];
-  ride_progress progress = {c, side};
-  engine_ride ride = {
-      .start = c->scenario->start,
+static term_exit ride(trace *out, comparison *c, const engine *e, void *instance,
+                      const bike_state *start, problem *p) {
+  engine_ride asked = {
+      .start = *start,
       .duration = c->scenario->duration,
       .sample = c->scenario->sample,
       .lean_limit = bike_default_ride_def().lean_limit, // the same for all engines
       .progress = ride_progressed,
-      .user = &progress,
+      .user = c,
   };
-  term_exit code = s->engine->ride(&s->trace, s->instance, &ride, p);
-  if (code != TERM_DONE) return problem_prefix(p, code, s->label);
-  long row = trace_first_not_finite(&s->trace);
-  if (row >= 0)
-    return problem_set(p, TERM_INVALID, "%s: not a finite number at %g s", s->label,
-                       s->trace.rows[row].sample.time);
-  return TERM_DONE;
+  term_exit code = e->ride(out, instance, &asked, p);
+  c->played++;
+  if (code != TERM_DONE) return code;
+  long row = trace_first_not_finite(out);
+  if (row < 0) return TERM_DONE;
+  return problem_set(p, TERM_INVALID, "not a finite number at %g s", out->rows[row].sample.time);
+}
+
+term_exit comparison_ride_also(trace *out, comparison *c, const engine_choice *choice,
+                               const bike_state *start, problem *p) {
+  term_exit code = TERM_INVALID;
+  void *instance = choice->engine->create(&c->scenario->bicycle, choice, &code, p);
+  if (!instance) return code;
+  code = ride(out, c, choice->engine, instance, start, p);
+  choice->engine->free(instance);
+  return code;
 }
 
 term_exit comparison_ride(comparison *c, problem *p) {
   term_exit code = TERM_DONE;
-  for (int i = 0; i < 2 && !c->ridden && code == TERM_DONE; i++) code = ride_side(c, i, p);
+  if (c->ridden) return TERM_DONE;
+  for (int i = 0; i < 2 && code == TERM_DONE; i++) {
+    comparison_side *s = &c->side[i];
+    code = ride(&s->trace, c, s->engine, s->instance, &c->scenario->start, p);
+    if (code != TERM_DONE) problem_prefix(p, code, s->label);
+  }
+  if (code == TERM_DONE && c->scenario->horizon.asked) code = horizon_find(c, p);
   c->ridden = code == TERM_DONE;
   return code;
 }
@@ -109,19 +127,12 @@ size_t comparison_rows(const comparison *c) {
   return a < b ? a : b;
 }
 
-// Says which gate of the first failing layer uses up its limit most, and what that means.
-static void explain(comparison *c, const gate *worst) {
-  char name[MEASUREMENT_FULL_NAME];
-  const measurement *m = &worst->what;
-  c->first_failure = layer_find(m->layer);
-  int used = snprintf(c->cause, sizeof c->cause, "%s; largest in %s: %s %.3g%s%s, limit %.3g",
-                      c->first_failure->failure, measurement_full_name(name, m), m->metric,
-                      m->value, *m->unit ? " " : "", m->unit, worst->rule->limit);
-  if (used < 0 || used >= (int)sizeof c->cause) return;
-  if (isfinite(m->time))
-    used += snprintf(c->cause + used, sizeof c->cause - (size_t)used, " at %g s", m->time);
-  if (*m->detail && used < (int)sizeof c->cause)
-    snprintf(c->cause + used, sizeof c->cause - (size_t)used, " (%s)", m->detail);
+size_t comparison_judged_rows(const comparison *c) {
+  size_t rows = comparison_rows(c);
+  if (!c->study.horizon.asked) return rows;
+  const trace_row *row = c->side[REFERENCE].trace.rows;
+  while (rows > 0 && row[rows - 1].sample.time > c->study.horizon.time) rows--;
+  return rows;
 }
 
 static const gate *worst_of(const gate_list *gates, const layer *l) {
@@ -139,13 +150,21 @@ static void find_first_failure(comparison *c) {
     const gate *worst = worst_of(&c->gates, layer_at(i));
     if (!worst) continue;
     c->verdict = VERDICT_FAIL;
-    explain(c, worst);
+    comparison_explain(c, worst);
     return;
   }
 }
 
+// A run that means nothing; but where an earlier layer has found a fault, that is its cause.
 static void invalidate(comparison *c, const layer *l, const problem *p) {
+  find_first_failure(c);
+  bool failed = c->verdict == VERDICT_FAIL;
   c->verdict = VERDICT_INVALID;
+  if (failed) {
+    size_t used = strlen(c->cause);
+    snprintf(c->cause + used, sizeof c->cause - used, "; then %s: %s", l->name, p->text);
+    return;
+  }
   c->first_failure = l;
   snprintf(c->cause, sizeof c->cause, "%s", p->text);
 }

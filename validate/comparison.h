@@ -4,6 +4,7 @@
 #define VALIDATE_COMPARISON_H
 
 #include "gate.h"
+#include "study.h"
 
 enum { COMPARISON_LABEL = 24, COMPARISON_CAUSE = 1200 };
 
@@ -33,8 +34,10 @@ typedef struct comparison {
   double growth_rate; // 1/s  of scenario_growth, resolved
   double weight;      // N    of the bicycle with its rider
   bool ridden;        //      both traces are there
+  int rides, played;  //      rides that the scenario takes, and those done: the progress
 
   measurement_list measurements;
+  study_results study;
   gate_list gates;
   verdict verdict;
   const struct layer *first_failure; // NULL while all hold
@@ -56,7 +59,14 @@ term_exit comparison_run(comparison *c, problem *p);
 // Lets both engines ride, once; for the layers that look at rides.
 term_exit comparison_ride(comparison *c, problem *p);
 
+// Another ride of the same scenario: by engine `choice` from `start` into an empty trace.
+term_exit comparison_ride_also(trace *out, comparison *c, const engine_choice *choice,
+                               const bike_state *start, problem *p);
+
 // Rows that both traces have.
 size_t comparison_rows(const comparison *c);
+
+// Rows of these that can be predicted: all, but for unstable rides (study_horizon).
+size_t comparison_judged_rows(const comparison *c);
 
 #endif

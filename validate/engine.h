@@ -12,7 +12,14 @@
 
 #include <bicycle/state.h>
 
-enum { ENGINE_MAX_OPTIONS = 8, ENGINE_VERSION_SIZE = 96, ENGINE_HASH_SIZE = 65 };
+enum {
+  ENGINE_MAX_OPTIONS = 8,
+  ENGINE_MAX_COLUMNS = 32,
+  ENGINE_COLUMN_SIZE = 64,
+  ENGINE_PATH_SIZE = 4096, // PATH_MAX of Linux
+  ENGINE_VERSION_SIZE = 96,
+  ENGINE_HASH_SIZE = 65
+};
 
 // An option of an engine in a scenario: a positive number, or one of a few words.
 typedef struct engine_option {
@@ -46,16 +53,41 @@ typedef struct engine_ride {
   void *user;                //
 } engine_ride;
 
+// Where a recorded ride has a signal: its column, and by what that is multiplied to become SI with
+// the signs of this project.
+typedef struct engine_column {
+  char signal[ENGINE_COLUMN_SIZE]; // of trace_signals, or "time"
+  char column[ENGINE_COLUMN_SIZE]; // in the header of the file
+  double scale;
+} engine_column;
+
+struct engine;
+
+// An engine with its options, as a scenario asks for it.
+typedef struct engine_choice {
+  const struct engine *engine;
+  double option[ENGINE_MAX_OPTIONS];
+  // The user's own MuJoCo model of the bicycle, as it is opened; empty: the bicycle came as a
+  // bicycle file, and an engine makes its model itself.
+  char model[ENGINE_PATH_SIZE];
+  // Of an engine that plays a recorded ride:
+  char file[ENGINE_PATH_SIZE];               // its path, as it is opened
+  engine_column columns[ENGINE_MAX_COLUMNS]; //
+  int column_count;                          // 0: columns have the names of the signals
+} engine_choice;
+
 typedef struct engine {
   const char *name;    // in scenarios: "mujoco"
   const char *summary; // one line
 
   const engine_option *options; // option_count of them; NULL without
   int option_count;             // <= ENGINE_MAX_OPTIONS
+  const char *step_option;      // the one that is the step of integration; NULL: none
+  bool plays_file;              // it needs a file, and may have a map of columns
 
-  // An instance for a bicycle; `option` holds a value for each option. NULL with a problem and its
-  // exit code in `code` otherwise.
-  void *(*create)(const bike_bicycle *bicycle, const double *option, term_exit *code, problem *p);
+  // An instance for a bicycle. NULL with a problem and its exit code in `code` otherwise.
+  void *(*create)(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
+                  problem *p);
   void (*free)(void *instance);
 
   // The programs and versions at work: "MuJoCo 2.2.2".
@@ -69,27 +101,33 @@ typedef struct engine {
   // NULL for an engine that uses the bicycle's numbers as they are.
   term_exit (*parameters)(bike_bicycle *out, void *instance, problem *p);
 
-  // The instant at a state, hands off. TERM_USAGE: the state is outside the engine's domain.
+  // The order with which a ride's error falls with its step; 0 where no option is a step, or where
+  // the error is not a power of it. NULL: 0.
+  double (*order)(const engine_choice *choice);
+
+  // The instant at a state, hands off. TERM_USAGE: the state is outside the engine's domain. NULL:
+  // the engine knows rides only.
   term_exit (*evaluate)(engine_instant *out, void *instance, const bike_state *state, problem *p);
+
+  // A (4 x 4, row-major) of x' = A x near upright straight riding at a speed, x = (steer, lean,
+  // steer rate, lean rate), by the engine's own means. NULL: it has none.
+  term_exit (*linearize)(double A[16], void *instance, double speed, problem *p);
 
   // Rides and records into an empty trace. TERM_DONE also when an event ended the ride.
   term_exit (*ride)(trace *out, void *instance, const engine_ride *ride, problem *p);
 } engine;
 
-extern const engine engine_analytic, engine_mujoco;
+extern const engine engine_analytic, engine_mujoco, engine_linear, engine_file;
 
 // All engines by number; NULL beyond the last.
 const engine *engine_at(int index);
 const engine *engine_find(const char *name);
 
-// An engine with its options, as a scenario asks for it.
-typedef struct engine_choice {
-  const engine *engine;
-  double option[ENGINE_MAX_OPTIONS];
-} engine_choice;
-
 // The engine with its default options.
 engine_choice engine_default_choice(const engine *e);
+
+// Index of an option, or -1.
+int engine_option_index(const engine *e, const char *name);
 
 // Seconds on the clock by which engines time themselves.
 double engine_clock(void);

@@ -4,6 +4,7 @@
 #include "terminal/command.h"
 
 #include <bicycle/error.h>
+#include <bicycle/linear.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,9 +28,10 @@ typedef struct analytic {
   double rtol, atol, step;
 } analytic;
 
-static void *create(const bike_bicycle *bicycle, const double *option, term_exit *code,
+static void *create(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
                     problem *p) {
   static const bike_method method[] = {BIKE_METHOD_RK8, BIKE_METHOD_ADAMS, BIKE_METHOD_RK4};
+  const double *option = choice->option;
   analytic *a = calloc(1, sizeof *a);
   if (!a) {
     *code = problem_memory(p);
@@ -50,6 +52,21 @@ static void version(char out[ENGINE_VERSION_SIZE]) {
   char sundials[32];
   if (SUNDIALSGetVersion(sundials, sizeof sundials) != 0) strcpy(sundials, "of unknown version");
   snprintf(out, ENGINE_VERSION_SIZE, "libbicycle %s, SUNDIALS %s", term_version(), sundials);
+}
+
+static double order(const engine_choice *choice) {
+  bool fixed = strcmp(methods[(int)choice->option[OPTION_METHOD]], "rk4") == 0;
+  return fixed ? 4 : 0; // the others choose their steps themselves
+}
+
+// Exact derivatives of the same equations.
+static term_exit linearize(double A[16], void *instance, double speed, problem *p) {
+  const analytic *a = instance;
+  bike_linear linear;
+  int error = bike_linearize(&linear, &a->model, &(bike_state){.speed = speed}, NULL);
+  if (error != BIKE_OK) return problem_set(p, term_exit_of(error), "%s", bike_error_string(error));
+  memcpy(A, linear.A, sizeof linear.A);
+  return TERM_DONE;
 }
 
 static term_exit evaluate(engine_instant *out, void *instance, const bike_state *state,
@@ -115,6 +132,7 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
                        result.end_time);
   trace_end(out, result.complete, result.end_time, result.events, result.event_count);
   out->steps = result.steps;
+  out->evaluations = result.evaluations;
   return TERM_DONE;
 }
 
@@ -123,9 +141,12 @@ const engine engine_analytic = {
     .summary = "the corrected equations of Franke, Suhr and Riess, integrated by SUNDIALS",
     .options = options,
     .option_count = OPTION_COUNT,
+    .step_option = "step",
     .create = create,
     .free = free,
     .version = version,
+    .order = order,
+    .linearize = linearize,
     .evaluate = evaluate,
     .ride = ride,
 };

@@ -2,28 +2,48 @@
 // The MuJoCo engine: the bicycle as an mjModel, with exactly rolling wheels.
 #include "engine_mujoco.h"
 
+#include "engine_differences.h"
 #include "sha256.h"
+
+#include <bicycle_import.h>
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { OPTION_INTEGRATOR, OPTION_TIMESTEP, OPTION_ROOT, OPTION_COUNT };
+enum {
+  OPTION_INTEGRATOR,
+  OPTION_TIMESTEP,
+  OPTION_ROOT,
+  OPTION_ROLLING,
+  OPTION_SOLREF,
+  OPTION_TOLERANCE,
+  OPTION_COUNT
+};
 
-static const char *const integrators[] = {"rk4", "euler", "implicit", NULL};
+static const char *const integrators[] = {"rk4", "euler", "implicit", "cvode", NULL};
+enum { CVODE = 3 };
 static const char *const roots[] = {"hinge", "free", NULL};
+static const char *const rollings[] = {"exact", "contact", NULL};
 
 // As mjcf_default_options.
 static const engine_option options[OPTION_COUNT] = {
     [OPTION_INTEGRATOR] = {"integrator", "", integrators, 0},
     [OPTION_TIMESTEP] = {"timestep", "s", NULL, 1e-3},
     [OPTION_ROOT] = {"root", "", roots, 0},
+    [OPTION_ROLLING] = {"rolling", "", rollings, 0},
+    // Time constant of contacts; 0: two timesteps, the least that MuJoCo takes.
+    [OPTION_SOLREF] = {"solref", "s", NULL, 0},
+    // Relative and absolute, of cvode, per step: as the analytic engine's.
+    [OPTION_TOLERANCE] = {"tolerance", "", NULL, 1e-13},
 };
 
 typedef struct mujoco {
   runner *run;
   bike_bicycle bicycle;
   mjcf_options options;
+  double tolerance; // 0: MuJoCo integrates
+  bool imported;    // the model is the user's own
 } mujoco;
 
 runner *engine_mujoco_runner(void *instance) {
@@ -38,12 +58,16 @@ static void free_mujoco(void *instance) {
 }
 
 static mjcf_options choose(const double *option) {
-  static const mjcf_integrator integrator[] = {MJCF_RK4, MJCF_EULER, MJCF_IMPLICIT};
+  // Under CVODE no mj_step is made.
+  static const mjcf_integrator integrator[] = {MJCF_RK4, MJCF_EULER, MJCF_IMPLICIT, MJCF_RK4};
+  static const mjcf_rolling rolling[] = {MJCF_ROLLING_EXACT, MJCF_ROLLING_CONTACT};
   static const mjcf_root root[] = {MJCF_ROOT_HINGE, MJCF_ROOT_FREE};
   mjcf_options chosen = mjcf_default_options();
   chosen.integrator = integrator[(int)option[OPTION_INTEGRATOR]];
   chosen.timestep = option[OPTION_TIMESTEP];
   chosen.root = root[(int)option[OPTION_ROOT]];
+  chosen.rolling = rolling[(int)option[OPTION_ROLLING]];
+  chosen.contact_time = option[OPTION_SOLREF];
   chosen.visible = false;
   return chosen;
 }
@@ -54,7 +78,24 @@ static term_exit fail(problem *p, runner_status status, const mjcf_error *error)
   return problem_set(p, (term_exit)runner_exit_code(status), "%s", text);
 }
 
-static void *create(const bike_bicycle *bicycle, const double *option, term_exit *code,
+// The user's own model keeps its root; integrator and timestep are the scenario's.
+static runner *import(const mujoco *m, const char *path, runner_status *status, mjcf_error *error) {
+  static const int integrator[] = {
+      [MJCF_RK4] = mjINT_RK4, [MJCF_EULER] = mjINT_EULER, [MJCF_IMPLICIT] = mjINT_IMPLICIT};
+  if (m->options.rolling == MJCF_ROLLING_CONTACT) {
+    *status = RUNNER_UNSUPPORTED;
+    mjcf_fail(error, "rolling: contact is for models made here, %s is ridden rolling exactly",
+              path);
+    return NULL;
+  }
+  runner *run = runner_import(path, status, error);
+  if (!run) return NULL;
+  runner_model(run)->opt.integrator = integrator[m->options.integrator];
+  runner_model(run)->opt.timestep = m->options.timestep;
+  return run;
+}
+
+static void *create(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
                     problem *p) {
   mujoco *m = calloc(1, sizeof *m);
   if (!m) {
@@ -64,28 +105,73 @@ static void *create(const bike_bicycle *bicycle, const double *option, term_exit
   runner_status status = RUNNER_OK;
   mjcf_error error = {""};
   m->bicycle = *bicycle;
-  m->options = choose(option);
-  m->run = runner_create(bicycle, &m->options, &status, &error);
+  m->options = choose(choice->option);
+  if ((int)choice->option[OPTION_INTEGRATOR] == CVODE)
+    m->tolerance = choice->option[OPTION_TOLERANCE];
+  m->run = *choice->model ? import(m, choice->model, &status, &error)
+                          : runner_create(bicycle, &m->options, &status, &error);
+  m->imported = *choice->model != '\0';
   if (m->run) return m;
   *code = fail(p, status, &error);
   free_mujoco(m);
   return NULL;
 }
 
+static bool has_quaternion(const char *path) {
+  mjcf_error error;
+  mjModel *m = mjcf_load(path, &error);
+  bool has = false;
+  for (int i = 0; m && i < m->njnt; i++)
+    has = has || m->jnt_type[i] == mjJNT_FREE || m->jnt_type[i] == mjJNT_BALL;
+  if (m) mj_deleteModel(m);
+  return has;
+}
+
+// RK4 is of order 4 with slides and hinges, of order 2 with MuJoCo's quaternions. Contacts are not
+// smooth: whatever the integrator, no more than order 1 is to be had from them.
+static double order(const engine_choice *choice) {
+  int integrator = (int)choice->option[OPTION_INTEGRATOR];
+  if (integrator == CVODE) return 0; // it chooses its steps itself
+  if ((int)choice->option[OPTION_ROLLING] != 0 || integrator != 0) return 1;
+  if (*choice->model) return has_quaternion(choice->model) ? 2 : 4;
+  return (int)choice->option[OPTION_ROOT] == 0 ? 4 : 2;
+}
+
+static term_exit linearize(double A[16], void *instance, double speed, problem *p) {
+  const mujoco *m = instance;
+  if (m->options.rolling == MJCF_ROLLING_CONTACT)
+    return problem_set(p, TERM_USAGE, "a bicycle on soft contacts has no linearisation");
+  return engine_differences(A, &engine_mujoco, instance, speed, p);
+}
+
 static void version(char out[ENGINE_VERSION_SIZE]) {
   snprintf(out, ENGINE_VERSION_SIZE, "MuJoCo %s", mj_versionString());
+}
+
+// All numbers and names of a compiled model: they stand in one block.
+static void hash_model(char out[ENGINE_HASH_SIZE], const mjModel *m) {
+  sha256_hex(out, m->buffer, (size_t)m->nbuffer);
 }
 
 static void model_hash(char out[ENGINE_HASH_SIZE], void *instance) {
   const mujoco *m = instance;
   mjcf_error error;
+  if (m->imported) {
+    hash_model(out, runner_model(m->run));
+    return;
+  }
   char *text = mjcf_text(&m->bicycle, &m->options, NULL, &error);
   sha256_hex(out, text ? text : "", text ? strlen(text) : 0);
   free(text);
 }
 
 static term_exit parameters(bike_bicycle *out, void *instance, problem *p) {
-  return engine_mujoco_read_back(out, runner_model(engine_mujoco_runner(instance)), p);
+  const mujoco *m = instance;
+  mjcf_error error;
+  if (!m->imported) return engine_mujoco_read_back(out, runner_model(m->run), p);
+  // What was read from the file once is read from the model that is ridden.
+  if (import_bicycle(out, NULL, runner_model(m->run), &error)) return TERM_DONE;
+  return problem_set(p, TERM_USAGE, "%s", error.text);
 }
 
 static term_exit evaluate(engine_instant *out, void *instance, const bike_state *state,
@@ -139,6 +225,7 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
   def.duration = asked->duration;
   def.sample = asked->sample;
   def.lean_limit = asked->lean_limit;
+  def.tolerance = ((const mujoco *)instance)->tolerance;
   def.on_sample = record;
   def.user = &r;
   runner_ride_result result;
@@ -148,20 +235,24 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
   trace_end(out, result.complete, result.end_time, result.events, result.event_count);
   out->has_contacts = true;
   out->steps = result.steps;
+  out->evaluations = result.evaluations;
   out->wall_time = result.wall_time;
   return TERM_DONE;
 }
 
 const engine engine_mujoco = {
     .name = "mujoco",
-    .summary = "MuJoCo with exactly rolling wheels (plugin/rolling.h)",
+    .summary = "MuJoCo, with exactly rolling wheels (plugin/rolling.h) or its own contacts",
     .options = options,
     .option_count = OPTION_COUNT,
+    .step_option = "timestep",
     .create = create,
     .free = free_mujoco,
     .version = version,
     .model_hash = model_hash,
     .parameters = parameters,
+    .order = order,
+    .linearize = linearize,
     .evaluate = evaluate,
     .ride = ride,
 };

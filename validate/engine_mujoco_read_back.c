@@ -27,9 +27,11 @@ static term_exit find_names(reading *r, problem *p) {
   return TERM_DONE;
 }
 
-// Radius of a wheel from the marker tuple of rolling discs; 0 when it is not marked.
+// Radius of a wheel from the marker tuple of rolling discs, or of discs on contacts; 0 when it is
+// not marked.
 static double marked_radius(const mjModel *m, int body) {
   int tuple = mj_name2id(m, mjOBJ_TUPLE, "rolling_discs");
+  if (tuple < 0) tuple = mj_name2id(m, mjOBJ_TUPLE, "contact_discs");
   for (int i = 0; tuple >= 0 && i < m->tuple_size[tuple]; i++) {
     int element = m->tuple_adr[tuple] + i;
     int type = m->tuple_objtype[element], id = m->tuple_objid[element];

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-static const engine *const engines[] = {&engine_analytic, &engine_mujoco};
+static const engine *const engines[] = {&engine_analytic, &engine_mujoco, &engine_linear, &engine_file};
 
 enum { ENGINE_COUNT = sizeof engines / sizeof engines[0] };
 
@@ -22,6 +22,12 @@ engine_choice engine_default_choice(const engine *e) {
   engine_choice choice = {.engine = e};
   for (int i = 0; i < e->option_count; i++) choice.option[i] = e->options[i].value;
   return choice;
+}
+
+int engine_option_index(const engine *e, const char *name) {
+  for (int i = 0; name && i < e->option_count; i++)
+    if (strcmp(e->options[i].name, name) == 0) return i;
+  return -1;
 }
 
 double engine_clock(void) {

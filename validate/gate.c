@@ -27,7 +27,7 @@ static const gate_rule *own_rule(const measurement *m) {
   return NULL;
 }
 
-static const gate_rule *rule_for(const measurement *m, const gate_rules *rules) {
+const gate_rule *gate_rule_for(const measurement *m, const gate_rules *rules) {
   for (size_t i = rules->count; i-- > 0;)
     if (fits(&rules->items[i], m)) return &rules->items[i];
   return own_rule(m);
@@ -70,7 +70,7 @@ static bool is_measured_layer(const layer *l, int measured_layers) {
 bool gates_judge(gate_list *out, const measurement_list *measurements, const gate_rules *rules,
                  int measured_layers) {
   for (size_t i = 0; i < measurements->count; i++) {
-    const gate_rule *rule = rule_for(&measurements->items[i], rules);
+    const gate_rule *rule = gate_rule_for(&measurements->items[i], rules);
     if (rule && !add(out, &measurements->items[i], rule)) return false;
   }
   for (size_t i = 0; i < rules->count; i++)

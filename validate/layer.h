@@ -11,7 +11,8 @@
 typedef struct layer {
   const char *name;    // "L0"
   const char *title;   // "instant"
-  const char *failure; // what it means when this is the first layer to fail
+  const char *agreed;  // what is known when its gates hold: "the parameters agree"
+  const char *failure; // what it means when this is the first layer to fail, without that
 
   // Whether the layer measures that metric of that signal; NULL: of any signal.
   bool (*knows)(const char *signal, const char *metric);
@@ -24,7 +25,8 @@ typedef struct layer {
   int rule_count;
 } layer;
 
-extern const layer layer_parameters, layer_instant, layer_traces, layer_invariants;
+extern const layer layer_parameters, layer_instant, layer_linear, layer_traces, layer_invariants,
+    layer_convergence, layer_horizon, layer_cost;
 
 // All layers in order; NULL beyond the last.
 const layer *layer_at(int index);

@@ -63,7 +63,7 @@ static bool is_worse(double error, double so_far) {
 static void describe(measurement *m, const bike_state *s, double reference, double candidate,
                      const char *unit) {
   measurement_detail(m,
-                     "%.6g against %.6g %s at lean %.4g, steer %.4g, lean rate %.4g, steer rate "
+                     "%.9g against %.9g %s at lean %.4g, steer %.4g, lean rate %.4g, steer rate "
                      "%.4g, speed %.4g",
                      candidate, reference, unit, s->lean, s->steer, s->lean_rate, s->steer_rate,
                      s->speed);
@@ -92,7 +92,7 @@ static void compare_forces(extremes *out, const bike_state *state, const engine_
     measurement *m = &out->error[QUANTITY_COUNT + i];
     double difference[3];
     for (int k = 0; k < 3; k++) difference[k] = b->force[i][k] - a->force[i][k];
-    double error = norm(difference) / weight;
+    double error = norm(difference) / fmax(weight, norm(a->force[i]));
     if (!is_worse(error, m->value)) continue;
     m->value = error;
     describe(m, state, norm(a->force[i]), norm(b->force[i]), "N");
@@ -155,9 +155,10 @@ static term_exit compare_all(extremes *out, comparison *c, problem *p) {
   uint64_t seed = range->seed;
   bool admissible;
   term_exit code = compare_at(out, &admissible, c, &c->scenario->start, p);
-  if (code == TERM_DONE && !admissible)
-    return problem_set(p, TERM_USAGE, "start: %s",
-                       *p->text ? p->text : "the bicycle cannot take up this state");
+  if (code == TERM_DONE && !admissible) {
+    if (!*p->text) problem_set(p, TERM_USAGE, "the bicycle cannot take up this state");
+    return problem_prefix(p, TERM_USAGE, "start");
+  }
   int64_t draws = 0, most = (int64_t)DRAWS_PER_STATE * range->count;
   for (int found = 0; code == TERM_DONE && found < range->count; draws++) {
     if (draws == most)
@@ -171,6 +172,8 @@ static term_exit compare_all(extremes *out, comparison *c, problem *p) {
 }
 
 static term_exit measure(comparison *c, problem *p) {
+  if (!c->side[REFERENCE].engine->evaluate || !c->side[CANDIDATE].engine->evaluate)
+    return TERM_DONE; // an engine that knows rides only
   extremes worst;
   for (int i = 0; i < QUANTITY_COUNT + FORCE_COUNT; i++) {
     const char *name = i < QUANTITY_COUNT ? quantities[i].name : force_names[i - QUANTITY_COUNT];
@@ -196,8 +199,9 @@ static bool knows(const char *signal, const char *metric) {
 const layer layer_instant = {
     .name = "L0",
     .title = "instant",
-    .failure = "the parameters agree, but not what the engines say of an instant: the equations "
-               "or the rolling constraint differ",
+    .agreed = "the engines agree on instants",
+    .failure = "they say different things of an instant: the equations or the rolling constraint "
+               "differ",
     .knows = knows,
     .measure = measure,
 };

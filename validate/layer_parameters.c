@@ -142,6 +142,7 @@ static bool knows(const char *signal, const char *metric) {
 const layer layer_parameters = {
     .name = "Lp",
     .title = "parameters",
+    .agreed = "the parameters agree",
     .failure = "an engine's model does not hold the bicycle's parameters",
     .knows = knows,
     .measure = measure,

@@ -2,6 +2,7 @@
 // L2: the rides of both engines, signal by signal, at the same times.
 #include "layer.h"
 
+#include "gate.h"
 #include "metrics.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@ static const char *const compared[] = {"lean",  "steer",      "lean_rate",   "st
                                        "speed", "yaw",        "x",           "y",
                                        "pitch", "rear_angle", "front_angle", NULL};
 static const char *const forces[] = {"rear_force", "front_force", NULL};
-static const char *const metrics[] = {"max", "scaled_max", "rmse", "end", NULL};
+static const char *const metrics[] = {"max", "scaled_max", "rmse", "nrmse", "end", "tube", NULL};
 
 // Times and differences (candidate - reference) of one signal.
 typedef struct residual {
@@ -38,11 +39,67 @@ static void sum_up(comparison *c, const residual *r, const char *signal, const c
       n ? (metrics_peak){fabs(r->error[n - 1]), r->time[n - 1]} : (metrics_peak){NAN, NAN});
 }
 
+// What is judged is as much of a ride as can be predicted; the rest is told.
+static void tell_of_rest(comparison *c, const residual *r, const char *signal, const char *unit,
+                         size_t all) {
+  if (all > r->count)
+    add(c, signal, "beyond_horizon", unit,
+        metrics_max(r->time + r->count, r->error + r->count, all - r->count));
+}
+
+// Root mean square over what the signal does: its range, or where that is nothing the nominal size
+// below which nobody looks, 1 cm, 1 cm/s or half a degree.
+static void add_nrmse(comparison *c, const residual *r, const trace_signal *signal) {
+  static const double nominal = 0.01;
+  double low = INFINITY, high = -INFINITY;
+  for (size_t k = 0; k < r->count; k++) {
+    double value = trace_value(&c->side[REFERENCE].trace.rows[k], signal);
+    low = fmin(low, value), high = fmax(high, value);
+  }
+  double size = fmax(high - low, nominal);
+  add(c, signal->name, "nrmse", "", (metrics_peak){metrics_rms(r->error, r->count) / size, NAN});
+}
+
+// How far the candidate leaves the tube about the reference whose half width in time is the rule's;
+// the half width in value is its limit. Only where a rule asks.
+static void add_tube(comparison *c, const residual *r, const trace_signal *signal) {
+  measurement m = measurement_of(layer_traces.name, signal->name, "tube", signal->unit);
+  const gate_rule *rule = gate_rule_for(&m, &c->scenario->rules);
+  if (!rule) return;
+  double *a = calloc(r->count + 1, sizeof *a), *b = calloc(r->count + 1, sizeof *b);
+  for (size_t k = 0; a && b && k < r->count; k++) {
+    a[k] = trace_value(&c->side[REFERENCE].trace.rows[k], signal);
+    b[k] = trace_value(&c->side[CANDIDATE].trace.rows[k], signal);
+  }
+  if (a && b)
+    add(c, signal->name, "tube", signal->unit,
+        metrics_tube(r->time, a, b, r->count, rule->time_tolerance));
+  else
+    c->measurements.lost = true;
+  free(a);
+  free(b);
+}
+
 static void compare_signal(comparison *c, residual *r, const trace_signal *signal) {
-  for (size_t k = 0; k < r->count; k++)
+  size_t all = comparison_rows(c);
+  if (!trace_has(&c->side[REFERENCE].trace, signal) ||
+      !trace_has(&c->side[CANDIDATE].trace, signal))
+    return;
+  for (size_t k = 0; k < all; k++)
     r->error[k] = trace_value(&c->side[CANDIDATE].trace.rows[k], signal) -
                   trace_value(&c->side[REFERENCE].trace.rows[k], signal);
   sum_up(c, r, signal->name, signal->unit);
+  add_nrmse(c, r, signal);
+  add_tube(c, r, signal);
+  tell_of_rest(c, r, signal->name, signal->unit, all);
+}
+
+// All components of both forces.
+static bool has_forces(const comparison_side *side) {
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
+    if (strstr(trace_signals[i].name, "_force_") && !trace_has(&side->trace, &trace_signals[i]))
+      return false;
+  return true;
 }
 
 static const double *force_of(const comparison_side *side, size_t row, int wheel) {
@@ -52,7 +109,7 @@ static const double *force_of(const comparison_side *side, size_t row, int wheel
 
 // |F - F_reference| over the total weight
 static void compare_force(comparison *c, residual *r, int wheel) {
-  for (size_t k = 0; k < r->count; k++) {
+  for (size_t k = 0; k < comparison_rows(c); k++) {
     const double *a = force_of(&c->side[REFERENCE], k, wheel);
     const double *b = force_of(&c->side[CANDIDATE], k, wheel);
     double sum = 0;
@@ -60,6 +117,12 @@ static void compare_force(comparison *c, residual *r, int wheel) {
     r->error[k] = sqrt(sum) / c->weight;
   }
   sum_up(c, r, forces[wheel], "");
+  tell_of_rest(c, r, forces[wheel], "", comparison_rows(c));
+}
+
+// When a ride ended, s. A complete one of an engine that rounds ends with the scenario.
+static double end_of(const comparison *c, const trace *t) {
+  return t->complete ? c->scenario->duration : t->end_event.time;
 }
 
 // How a ride ended, for the message.
@@ -73,28 +136,61 @@ static void describe_ends(measurement *m, const comparison *c) {
   measurement_detail(m, "%s, %s", end[0], end[1]);
 }
 
-// The time by which the ends of the two rides differ; NaN if they ended in different ways.
+// The time by which the ends of the two rides differ, whatever ended them: the analytic model ends
+// where its coordinates do ("end of the model's validity"), MuJoCo's rides on there, and how much
+// longer is what is measured.
 static void compare_ends(comparison *c) {
   const trace *a = &c->side[REFERENCE].trace, *b = &c->side[CANDIDATE].trace;
   measurement m = measurement_of(layer_traces.name, "end_time", "difference", "s");
-  if (a->complete && b->complete)
-    m.value = 0;
-  else if (!a->complete && !b->complete && a->end_event.kind == b->end_event.kind)
-    m.value = fabs(b->end_event.time - a->end_event.time);
+  m.value = fabs(end_of(c, b) - end_of(c, a));
+  if (c->study.horizon.asked && fmin(a->end_time, b->end_time) > c->study.horizon.time)
+    m.value = 0; // what cannot be predicted is not judged
   if (!a->complete || !b->complete) describe_ends(&m, c);
   measurement_add(&c->measurements, &m);
+}
+
+// Time shift and amplitude ratio of an angle whose rate is a signal too.
+static void compare_shape(comparison *c, residual *r, const char *name, const char *rate_name,
+                          study_shift *shift) {
+  const trace_signal *signal = trace_find_signal(name), *rate = trace_find_signal(rate_name);
+  const comparison_side *a = &c->side[REFERENCE], *b = &c->side[CANDIDATE];
+  if (!trace_has(&a->trace, rate) || !trace_has(&a->trace, signal) || !trace_has(&b->trace, signal))
+    return;
+  double *rates = calloc(r->count + 1, sizeof *rates), ab = 0, aa = 0;
+  for (size_t k = 0; rates && k < r->count; k++) {
+    double is = trace_value(&a->trace.rows[k], signal),
+           has = trace_value(&b->trace.rows[k], signal);
+    r->error[k] = has - is;
+    rates[k] = trace_value(&a->trace.rows[k], rate);
+    ab += is * has;
+    aa += is * is;
+  }
+  if (rates) {
+    // All rides start alike, late ones too: the first row says nothing.
+    size_t first = r->count > 0;
+    metrics_time_shift(&shift->time, &shift->share, r->error + first, rates + first,
+                       r->count - first);
+    add(c, name, "time_shift", "s", (metrics_peak){shift->time, NAN});
+    add(c, name, "amplitude_ratio", "", (metrics_peak){ab / aa, NAN});
+  }
+  free(rates);
 }
 
 static term_exit measure(comparison *c, problem *p) {
   term_exit code = comparison_ride(c, p);
   if (code != TERM_DONE) return code;
   size_t count = comparison_rows(c);
-  residual r = {calloc(count + 1, sizeof(double)), calloc(count + 1, sizeof(double)), count};
+  residual r = {calloc(count + 1, sizeof(double)), calloc(count + 1, sizeof(double)),
+                comparison_judged_rows(c)};
   if (r.time && r.error) {
     compare_ends(c);
     for (size_t k = 0; k < count; k++) r.time[k] = c->side[REFERENCE].trace.rows[k].sample.time;
     for (int i = 0; compared[i]; i++) compare_signal(c, &r, trace_find_signal(compared[i]));
-    for (int i = 0; forces[i]; i++) compare_force(c, &r, i);
+    bool both = has_forces(&c->side[REFERENCE]) && has_forces(&c->side[CANDIDATE]);
+    for (int i = 0; both && forces[i]; i++) compare_force(c, &r, i);
+    study_shift steer;
+    compare_shape(c, &r, "steer", "steer_rate", &steer);
+    compare_shape(c, &r, "lean", "lean_rate", &c->study.shift);
   } else {
     code = problem_memory(p);
   }
@@ -115,15 +211,15 @@ static const gate_rule rules[] = {
      .signals = {"end_time"},
      .signal_count = 1,
      .limit = 1e-3,
-     .reason = "both rides end in the same way and, if an event ends them, at the same time to "
-               "within one integration step"},
+     .reason = "both rides end at the same time to within one integration step, be it with the "
+               "scenario or by an event; the detail names what ended them"},
 };
 
 const layer layer_traces = {
     .name = "L2",
     .title = "traces",
-    .failure = "the engines agree on instants, but not on the ride: the integration or the start "
-               "differs",
+    .agreed = "the rides agree",
+    .failure = "the rides differ: the integration or the start does",
     .knows = knows,
     .measure = measure,
     .rules = rules,

@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-static const layer *const layers[] = {&layer_parameters, &layer_instant, &layer_traces,
-                                      &layer_invariants};
+static const layer *const layers[] = {&layer_parameters, &layer_instant,    &layer_linear,
+                                      &layer_traces,     &layer_invariants, &layer_convergence,
+                                      &layer_horizon,    &layer_cost};
 
 enum { LAYER_COUNT = sizeof layers / sizeof layers[0] };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // bicycle-validate: plays scenarios in two simulators and says whether they agree.
+#include "baseline.h"
+#include "cmd.h"
 #include "folder.h"
 #include "report.h"
 #include "suite.h"
@@ -11,23 +13,26 @@
 
 static const char example[] = "Example: bicycle validate\n"
                               "         bicycle validate benchmark_m1 my.yml -o report --all\n"
-                              "         bicycle validate list\n";
+                              "         bicycle validate --baseline before.json\n"
+                              "         bicycle validate list | compare | bless\n";
 
 static const char documentation[] =
     "Plays scenarios in two simulators, compares what comes out with the limits of the scenario, "
     "prints the verdict and writes a report. SCENARIO is a file or the name of a shipped one; all "
-    "shipped ones without. `list` shows these.\v"
-    "Exit status: 0 the simulators agree; 1 they do not; 2 wrong usage or input; 3 a run is "
-    "invalid.";
+    "shipped ones without. `list` shows these, `compare` compares two saved reports, `bless` makes "
+    "a "
+    "report the baseline of later runs.\v"
+    "Exit status: 0 the simulators agree; 1 they do not, or a metric is worse than the baseline's; "
+    "2 wrong usage or input; 3 a run is invalid; 4 the baseline is missing or is of other rides.";
 
 typedef struct arguments {
-  const char *output;
+  const char *output, *baseline;
   bool json, all;
   char **scenarios; // of argv
   int count;
 } arguments;
 
-enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL };
+enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE };
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -40,6 +45,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     return 0;
   case KEY_ALL:
     args->all = true;
+    return 0;
+  case KEY_BASELINE:
+    args->baseline = text;
     return 0;
   case ARGP_KEY_ARGS:
     args->scenarios = state->argv + state->next;
@@ -54,46 +62,72 @@ static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "Folder of the report (./bicycle-report)", 1},
     {"json", KEY_JSON, NULL, 0, "Print report.json instead of the tables", 1},
     {"all", KEY_ALL, NULL, 0, "Show every gate, not only the closest ones", 1},
+    {"baseline", KEY_BASELINE, "FILE", 0, "Compare with an earlier report.json", 1},
     {0},
 };
 
-static void print(const report *r, const arguments *args, bool written) {
+static void print(const report *r, const json_t *document, const arguments *args) {
   if (args->json) {
-    if (!term_json_write(report_document(r), stdout)) term_message("out of memory");
+    if (!term_json_write(json_deep_copy(document), stdout)) term_message("out of memory");
     return;
   }
-  report_print(r, args->all, stdout);
-  if (written) printf("Report: %s\n", args->output);
+  report_print(r, document, args->all, stdout);
+  baseline_print(document, stdout);
+  printf("Report: %s\n", args->output);
 }
 
-static term_exit publish(report *r, const arguments *args) {
-  problem p = {""};
-  term_exit code = report_write(r, args->output, &p);
-  print(r, args, code == TERM_DONE);
-  if (code != TERM_DONE) return term_fail(code, "%s", p.text);
-  return verdict_exit(report_verdict(r));
+// The report's own verdict, unless it says that the run agrees.
+static term_exit judge(const report *r, const json_t *document) {
+  term_exit code = verdict_exit(report_verdict(r));
+  return code == TERM_DONE && baseline_is_worse(document) ? TERM_FAILED : code;
+}
+
+// Compares, writes and prints. A baseline that does not fit costs no more than the comparison.
+static term_exit publish(const report *r, const json_t *baseline, const arguments *args) {
+  problem p = {""}, misfit = {""};
+  json_t *document = report_document(r);
+  term_exit fits = document && baseline ? baseline_match(document, baseline, &misfit) : TERM_DONE;
+  bool ready = document && (!baseline || fits != TERM_DONE || baseline_compare(document, baseline));
+  term_exit code = ready ? report_write(r, document, args->output, &p) : problem_memory(&p);
+  // A verdict without a report is not published: with exit status 2 nothing was.
+  if (code == TERM_DONE) print(r, document, args);
+  if (code != TERM_DONE)
+    term_message("%s", p.text);
+  else if (report_verdict(r) != VERDICT_INVALID && fits != TERM_DONE)
+    code = term_fail(fits, "%s: %s", args->baseline, misfit.text);
+  else
+    code = judge(r, document);
+  json_decref(document);
+  return code;
+}
+
+// What can be wrong is found before the work, not after it.
+static term_exit prepare(suite *s, json_t **baseline, const arguments *args, problem *p) {
+  term_exit code = folder_check(args->output, p);
+  if (code == TERM_DONE && args->baseline) code = baseline_read(baseline, args->baseline, p);
+  if (code == TERM_DONE) code = suite_load(s, args->scenarios, args->count, p);
+  return code;
 }
 
 static term_exit validate(const arguments *args) {
   problem p = {""};
   suite s = {0};
   report r = {0};
+  json_t *baseline = NULL;
   double begun = engine_clock();
   if (!provenance_begin(&r.provenance, args->scenarios, args->count))
     return term_fail(TERM_INVALID, "out of memory");
-  term_exit code = folder_check(args->output, &p); // before the work, not after it
-  if (code == TERM_DONE) {
-    code = suite_load(&s, args->scenarios, args->count, &p);
-    if (code == TERM_DONE) code = suite_play(&s, &p);
-  }
+  term_exit code = prepare(&s, &baseline, args, &p);
+  if (code == TERM_DONE) code = suite_play(&s, &p);
   r.provenance.elapsed = engine_clock() - begun;
   if (code == TERM_DONE) {
     r.comparisons = s.comparisons;
     r.count = s.count;
-    code = publish(&r, args);
+    code = publish(&r, baseline, args);
   } else {
     code = term_fail(code, "%s", p.text);
   }
+  json_decref(baseline);
   suite_clear(&s);
   provenance_clear(&r.provenance);
   return code;
@@ -133,9 +167,32 @@ static term_exit list(const arguments *args) {
   return code;
 }
 
+// A command on saved reports, if the first argument names one; it returns the exit code.
+static bool run_command(int *code, int argc, char **argv) {
+  static char compare[] = "bicycle validate compare", bless[] = "bicycle validate bless";
+  const struct {
+    const char *word;
+    char *name;
+    int (*run)(int argc, char **argv);
+  } commands[] = {{"compare", compare, cmd_compare}, {"bless", bless, cmd_bless}};
+  for (size_t i = 0; argc > 1 && i < sizeof commands / sizeof *commands; i++) {
+    if (strcmp(argv[1], commands[i].word) != 0) continue;
+    argv[1] = commands[i].name;
+    term_begin(commands[i].name);
+    *code = commands[i].run(argc - 1, argv + 1);
+    return true;
+  }
+  return false;
+}
+
 int main(int argc, char **argv) {
+  int code;
+  if (run_command(&code, argc, argv)) return code;
   static char name[] = "bicycle validate";
-  const struct argp argp = {options, parse, "[SCENARIO...]\nlist", documentation, NULL, NULL, NULL};
+  const struct argp argp = {
+      options,       parse, "[SCENARIO...]\nlist\ncompare A.json B.json\nbless [REPORT]",
+      documentation, NULL,  NULL,
+      NULL};
   arguments args = {.output = "bicycle-report"};
   term_begin(name);
   argv[0] = name;

@@ -6,10 +6,12 @@
 #include <string.h>
 
 term_exit problem_set(problem *p, term_exit code, const char *format, ...) {
+  problem said; // the arguments may be of `p`
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(p->text, sizeof p->text, format, arguments);
+  vsnprintf(said.text, sizeof said.text, format, arguments);
   va_end(arguments);
+  memcpy(p->text, said.text, strlen(said.text) + 1);
   return code;
 }
 

@@ -28,8 +28,8 @@ const comparison *report_first_failure(const report *r);
 json_t *report_document(const report *r);
 
 // Verdict, then a table of gates for each scenario, worst first: all of them, or those that fail
-// and the few that are closest to their limit.
-void report_print(const report *r, bool all, FILE *stream);
+// and the few that are closest to their limit. `document` adds what the baseline says of them.
+void report_print(const report *r, const json_t *document, bool all, FILE *stream);
 
 // Every row of a trace: the columns of `bicycle ride`, then work, forces, and where it has them
 // slip and height.
@@ -43,7 +43,11 @@ enum { REPORT_FILES_PER_SCENARIO = 3, REPORT_FILE_NAME = 128 };
 // Names of a scenario's files within the report.
 void report_file_names(char out[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME], const comparison *c);
 
-// Writes the report into a folder: whole, or not at all.
-term_exit report_write(const report *r, const char *folder, problem *p);
+// The views of the whole report, by number: "report.json", "report.html", ...
+enum { REPORT_VIEWS = 4 };
+const char *report_view_name(int index);
+
+// Writes the report into a folder: whole, or not at all. `document` is its report.json.
+term_exit report_write(const report *r, const json_t *document, const char *folder, problem *p);
 
 #endif

@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include "layer.h"
+#include "report_json_layers.h"
 #include "terminal/command.h"
 #include "terminal/json.h"
 
@@ -78,6 +79,7 @@ static json_t *information_json(const comparison *c) {
 
 static json_t *options_json(const engine_choice *choice) {
   json_t *object = json_object();
+  if (choice->engine->plays_file) json_object_set_new(object, "file", json_string(choice->file));
   for (int i = 0; i < choice->engine->option_count; i++) {
     const engine_option *option = &choice->engine->options[i];
     json_t *value = option->choices ? json_string(option->choices[(int)choice->option[i]])
@@ -132,12 +134,14 @@ static json_t *scenario_json(const comparison *c) {
   json_t *engines = json_array();
   json_array_append_new(engines, engine_json(&c->side[REFERENCE], &s->reference, "reference"));
   json_array_append_new(engines, engine_json(&c->side[CANDIDATE], &s->candidate, "candidate"));
-  return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:[s, s, s]}", "name",
-                   s->name, "title", s->title, "bicycle", s->bicycle_name, "verdict",
-                   verdict_string(c->verdict), "first_failure", first_failure_json(c), "cause",
-                   text_or_null(c->cause), "setup", setup_json(c), "engines", engines,
-                   "parameter_sha256", hash, "gates", gates_json(&c->gates), "information",
-                   information_json(c), "files", files[0], files[1], files[2]);
+  json_t *object = json_pack(
+      "{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:[s, s, s]}", "name", s->name,
+      "title", s->title, "bicycle", s->bicycle_name, "verdict", verdict_string(c->verdict),
+      "first_failure", first_failure_json(c), "cause", text_or_null(c->cause), "setup",
+      setup_json(c), "engines", engines, "parameter_sha256", hash, "gates", gates_json(&c->gates),
+      "information", information_json(c), "files", files[0], files[1], files[2]);
+  report_add_layers(object, c);
+  return object;
 }
 
 static json_t *timings_json(const report *r) {
@@ -147,6 +151,7 @@ static json_t *timings_json(const report *r) {
     json_t *ride = json_pack("{s:s}", "scenario", c->scenario->name);
     for (int k = 0; k < 2; k++)
       json_object_set_new(ride, c->side[k].label, term_json_number(c->side[k].trace.wall_time));
+    report_add_timings(ride, c);
     json_array_append_new(rides, ride);
   }
   return json_pack("{s:o, s:o}", "elapsed", term_json_number(r->provenance.elapsed), "rides",
@@ -162,7 +167,8 @@ static json_t *provenance_json(const report *r) {
 
 static json_t *files_json(const report *r) {
   json_t *array = json_array();
-  json_array_append_new(array, json_string("report.json"));
+  for (int i = 0; i < REPORT_VIEWS; i++)
+    json_array_append_new(array, json_string(report_view_name(i)));
   for (size_t i = 0; i < r->count; i++) {
     char names[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME];
     report_file_names(names, &r->comparisons[i]);

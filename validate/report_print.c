@@ -3,6 +3,7 @@
 #include "report.h"
 
 #include "layer.h"
+#include "report_read.h"
 #include "terminal/table.h"
 
 #include <math.h>
@@ -67,7 +68,8 @@ static void print_margin(char out[CELL], const gate *g) {
     snprintf(out, CELL, "%.3gx", 1 / use);
 }
 
-static void add_row(term_table *table, const gate *g) {
+// `change`: against the baseline.
+static void add_row(term_table *table, const gate *g, const char *change) {
   char signal[MEASUREMENT_FULL_NAME], value[CELL], limit[CELL], margin[CELL], at[CELL] = "";
   const char *space = *g->what.unit ? " " : "";
   snprintf(value, sizeof value, "%.3g", g->what.value);
@@ -76,39 +78,45 @@ static void add_row(term_table *table, const gate *g) {
   if (isfinite(g->what.time)) snprintf(at, sizeof at, "%.4g s", g->what.time);
   term_table_add(table, g->pass ? TERM_PLAIN : TERM_BAD,
                  (const char *const[]){"", g->what.layer, measurement_full_name(signal, &g->what),
-                                       g->what.metric, value, limit, margin, at});
+                                       g->what.metric, value, limit, margin, at, change});
 }
 
-static void print_gates(const comparison *c, bool all, FILE *stream) {
+// `entry` is the scenario in the document.
+static void print_gates(const comparison *c, const json_t *entry, bool all, FILE *stream) {
   static const term_column columns[] = {
-      {"", TERM_LEFT},       {"layer", TERM_LEFT},  {"signal", TERM_LEFT},  {"metric", TERM_LEFT},
-      {"value", TERM_RIGHT}, {"limit", TERM_RIGHT}, {"margin", TERM_RIGHT}, {"at", TERM_RIGHT}};
+      {"", TERM_LEFT},        {"layer", TERM_LEFT},  {"signal", TERM_LEFT},
+      {"metric", TERM_LEFT},  {"value", TERM_RIGHT}, {"limit", TERM_RIGHT},
+      {"margin", TERM_RIGHT}, {"at", TERM_RIGHT},    {"baseline", TERM_LEFT}};
+  int count = sizeof columns / sizeof *columns - !json_object_get(entry, "baseline");
   const gate **sorted = gates_by_margin(&c->gates);
-  term_table *table = term_table_create(columns, 8);
+  term_table *table = term_table_create(columns, count);
   size_t shown = gates_failed(&c->gates) + SHOWN_GATES;
   if (all || shown > c->gates.count) shown = c->gates.count;
-  for (size_t i = 0; sorted && i < shown; i++) add_row(table, sorted[i]);
+  for (size_t i = 0; sorted && i < shown; i++)
+    add_row(table, sorted[i], report_gate_at(entry, (size_t)(sorted[i] - c->gates.items)).change);
   if (shown > 0) term_table_print(table, stream);
   term_table_free(table);
   free(sorted);
 }
 
-static void print_scenario(const comparison *c, bool explained, bool all, FILE *stream) {
+static void print_scenario(const comparison *c, const json_t *entry, bool explained, bool all,
+                           FILE *stream) {
   const scenario *s = c->scenario;
   term_style style = c->verdict == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
   fprintf(stream, "\n%s%s%s  %s: %s (%zu gate%s)\n", term_style_begin(stream, style),
           verdict_string(c->verdict), term_style_end(stream, style), s->name, s->title,
           c->gates.count, plural(c->gates.count));
   if (c->first_failure && !explained) print_cause(c, stream);
-  print_gates(c, all, stream);
+  print_gates(c, entry, all, stream);
 }
 
-void report_print(const report *r, bool all, FILE *stream) {
+void report_print(const report *r, const json_t *document, bool all, FILE *stream) {
+  const json_t *scenarios = json_object_get(document, "scenarios");
   const comparison *failure = report_first_failure(r);
   print_verdict(r, stream);
   for (size_t i = 0; i < r->count; i++) {
     const comparison *c = &r->comparisons[i];
-    print_scenario(c, c == failure, all, stream);
+    print_scenario(c, json_array_get(scenarios, i), c == failure, all, stream);
   }
   if (!all)
     fprintf(stream,

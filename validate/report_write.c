@@ -2,7 +2,7 @@
 #include "report.h"
 
 #include "folder.h"
-#include "terminal/json.h"
+#include "report_views.h"
 
 void report_file_names(char out[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME], const comparison *c) {
   const char *const what[REPORT_FILES_PER_SCENARIO] = {c->side[REFERENCE].label,
@@ -31,23 +31,43 @@ static term_exit write_scenario(const folder *f, const comparison *c, problem *p
   return code;
 }
 
-static term_exit write_document(const folder *f, const report *r, problem *p) {
-  static const char name[] = "report.json";
-  FILE *stream = folder_open(f, name, p);
-  if (!stream) return TERM_USAGE;
-  bool written = term_json_write(report_document(r), stream);
-  term_exit code = folder_close(stream, name, p);
-  if (code != TERM_DONE || written) return code;
-  return problem_memory(p);
+static bool write_json(const report *r, const json_t *document, FILE *stream) {
+  (void)r;
+  // 17 significant digits identify every double.
+  return json_dumpf(document, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+         fputc('\n', stream) != EOF;
 }
 
-term_exit report_write(const report *r, const char *path, problem *p) {
+static const struct {
+  const char *name;
+  report_view *write;
+} views[REPORT_VIEWS] = {{"report.json", write_json},
+                         {"report.html", report_html},
+                         {"junit.xml", report_junit},
+                         {"summary.md", report_summary}};
+
+const char *report_view_name(int index) {
+  return views[index].name;
+}
+
+static term_exit write_view(const folder *f, const report *r, const json_t *document, int index,
+                            problem *p) {
+  const char *name = views[index].name;
+  FILE *stream = folder_open(f, name, p);
+  if (!stream) return TERM_USAGE;
+  bool written = views[index].write(r, document, stream) || ferror(stream);
+  term_exit code = folder_close(stream, name, p);
+  return code != TERM_DONE || written ? code : problem_memory(p);
+}
+
+term_exit report_write(const report *r, const json_t *document, const char *path, problem *p) {
   folder f;
   term_exit code = folder_begin(&f, path, p);
   if (code != TERM_DONE) return code;
   for (size_t i = 0; i < r->count && code == TERM_DONE; i++)
     code = write_scenario(&f, &r->comparisons[i], p);
-  if (code == TERM_DONE) code = write_document(&f, r, p);
+  for (int i = 0; i < REPORT_VIEWS && code == TERM_DONE; i++)
+    code = write_view(&f, r, document, i, p);
   if (code == TERM_DONE) return folder_commit(&f, p);
   folder_abort(&f);
   return problem_prefix(p, code, path);

@@ -7,6 +7,8 @@
 
 #include "files/text.h"
 
+#include <bicycle_import.h>
+
 #include <bicycle/error.h>
 #include <bicycle/file.h>
 #include <math.h>
@@ -24,6 +26,24 @@ static int read_title(const bike_yaml *yaml, const bike_field *field, void *targ
   return bike_yaml_text(yaml, field, ((scenario *)target)->title, SCENARIO_TITLE);
 }
 
+static bool is_model(const char *path) {
+  size_t length = strlen(path);
+  const char *end = path + (length < 4 ? length : length - 4);
+  return strcmp(end, ".xml") == 0 || strcmp(end, ".mjb") == 0;
+}
+
+// A MuJoCo model: the bicycle is read out of it.
+static int read_model(scenario *s, const bike_yaml *yaml, const bike_field *field,
+                      const char *path) {
+  mjcf_error error = {""};
+  mjModel *model = mjcf_load(path, &error);
+  bool found = model && import_bicycle(&s->bicycle, NULL, model, &error);
+  if (model) mj_deleteModel(model);
+  if (!found) return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%s: %s", path, error.text);
+  snprintf(s->model_path, sizeof s->model_path, "%s", path);
+  return BIKE_OK;
+}
+
 // Names beside the scenario, so that the current folder does not matter; a bare name is a shipped
 // bicycle's.
 static int read_bicycle(const bike_yaml *yaml, const bike_field *field, void *target) {
@@ -37,12 +57,37 @@ static int read_bicycle(const bike_yaml *yaml, const bike_field *field, void *ta
   if (!(bare ? term_bicycle_path(path, s->bicycle_name)
              : scenario_relative_path(path, s->path, s->bicycle_name)))
     return bike_yaml_fail(yaml, field, BIKE_ERROR_FILE, "the path is too long");
-  code = bike_file_read(&file, path, &error);
-  if (code) return bike_yaml_fail(yaml, field, code, "%s", error.text);
-  s->bicycle = file.bicycle;
+  if (is_model(path)) {
+    code = read_model(s, yaml, field, path);
+    if (code) return code;
+  } else {
+    code = bike_file_read(&file, path, &error);
+    if (code) return bike_yaml_fail(yaml, field, code, "%s", error.text);
+    s->bicycle = file.bicycle;
+  }
   code = bike_model_init(&s->model, &s->bicycle);
   if (code) return bike_yaml_fail(yaml, field, code, "%s: %s", path, bike_error_string(code));
   return BIKE_OK;
+}
+
+// The rider sits beside his place, to the right: in the bicycle itself, so that every engine has
+// it.
+static int read_rider_offset(const bike_yaml *yaml, const bike_field *field, void *target) {
+  return bike_yaml_number(yaml, field, &((scenario *)target)->rider_offset);
+}
+
+static int displace_rider(const bike_yaml *yaml, scenario *s) {
+  bike_field field = {"rider_offset", 0, NULL};
+  if (s->rider_offset == 0) return BIKE_OK;
+  bike_yaml_find(yaml->root, field.key, &field);
+  for (int i = 0; i < s->bicycle.part_count; i++) {
+    if (!s->bicycle.parts[i].rider) continue;
+    s->bicycle.parts[i].position[1] -= s->rider_offset;
+    int code = bike_model_init(&s->model, &s->bicycle);
+    return code ? bike_yaml_fail(yaml, &field, code, "%s", bike_error_string(code)) : BIKE_OK;
+  }
+  return bike_yaml_fail(yaml, &field, BIKE_ERROR_NO_RIDER, "%s",
+                        bike_error_string(BIKE_ERROR_NO_RIDER));
 }
 
 static int read_start(const bike_yaml *yaml, const bike_field *field, void *target) {
@@ -69,12 +114,11 @@ static int read_sample(const bike_yaml *yaml, const bike_field *field, void *tar
 
 static int read_growth(const bike_yaml *yaml, const bike_field *field, void *target) {
   scenario_growth *growth = &((scenario *)target)->growth;
-  growth->unstable_mode = bike_yaml_is_plain(field, "unstable-mode");
+  growth->unstable_mode = bike_yaml_is_text(field, "unstable-mode");
   return growth->unstable_mode ? BIKE_OK : bike_yaml_not_negative(yaml, field, &growth->rate);
 }
 
-// A whole number 0..most that was read as a double.
-static int whole(const bike_yaml *yaml, const bike_field *field, double most, double *out) {
+int scenario_read_whole(const bike_yaml *yaml, const bike_field *field, double most, double *out) {
   int code = bike_yaml_not_negative(yaml, field, out);
   if (!code && (*out > most || *out != floor(*out)))
     return bike_yaml_fail(yaml, field, BIKE_ERROR_SYNTAX, "must be a whole number up to %.0f",
@@ -84,14 +128,15 @@ static int whole(const bike_yaml *yaml, const bike_field *field, double most, do
 
 static int read_count(const bike_yaml *yaml, const bike_field *field, void *target) {
   double number;
-  int code = whole(yaml, field, MOST_INSTANTS, &number);
+  int code = scenario_read_whole(yaml, field, MOST_INSTANTS, &number);
   if (!code) *(int *)target = (int)number;
   return code;
 }
 
 static int read_seed(const bike_yaml *yaml, const bike_field *field, void *target) {
   double number;
-  int code = whole(yaml, field, 0x1p53, &number); // beyond, not every whole number is a double
+  int code = scenario_read_whole(yaml, field, 0x1p53,
+                                 &number); // beyond, not every whole number is a double
   if (!code) *(uint64_t *)target = (uint64_t)number;
   return code;
 }
@@ -150,12 +195,22 @@ static int read_include(const bike_yaml *yaml, const bike_field *field, void *ta
 }
 
 static const bike_key scenario_keys[] = {
-    {"title", read_title, 0, true},         {"bicycle", read_bicycle, 0, true},
-    {"start", read_start, 0, true},         {"duration", read_duration, 0, true},
-    {"sample", read_sample, 0, true},       {"growth", read_growth, 0, false},
-    {"instants", read_instants, 0, false},  {"reference", read_reference, 0, true},
-    {"candidate", read_candidate, 0, true}, {"include", read_include, 0, false},
+    {"title", read_title, 0, true},
+    {"bicycle", read_bicycle, 0, true},
+    {"start", read_start, 0, true},
+    {"duration", read_duration, 0, true},
+    {"sample", read_sample, 0, true},
+    {"growth", read_growth, 0, false},
+    {"instants", read_instants, 0, false},
+    {"reference", read_reference, 0, true},
+    {"candidate", read_candidate, 0, true},
+    {"include", read_include, 0, false},
     {"gates", read_gates, 0, false},
+    {"linear", scenario_read_linear, offsetof(scenario, linear), false},
+    {"convergence", scenario_read_convergence, offsetof(scenario, convergence), false},
+    {"horizon", scenario_read_horizon, offsetof(scenario, horizon), false},
+    {"rider_offset", read_rider_offset, 0, false},
+    {"cost", scenario_read_cost, offsetof(scenario, cost), false},
 };
 
 // What no single key can be blamed for.
@@ -172,6 +227,12 @@ static int check_whole(const bike_yaml *yaml, const scenario *s) {
   return BIKE_OK;
 }
 
+// The keys come in any order, so that engines learn of the model at the end.
+static void give_model(scenario *s) {
+  memcpy(s->reference.model, s->model_path, sizeof s->reference.model);
+  memcpy(s->candidate.model, s->model_path, sizeof s->candidate.model);
+}
+
 static int parse(scenario *s, bike_file_error *error) {
   bike_text text;
   bike_yaml yaml;
@@ -181,6 +242,8 @@ static int parse(scenario *s, bike_file_error *error) {
   code = bike_yaml_open(&yaml, &text, s->path, error);
   if (!code) code = bike_yaml_read(&yaml, NULL, yaml.root, keys, s);
   if (!code) code = check_whole(&yaml, s);
+  if (!code) code = displace_rider(&yaml, s);
+  give_model(s);
   bike_yaml_close(&yaml);
   bike_text_free(&text);
   return code;

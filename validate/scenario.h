@@ -26,6 +26,7 @@ typedef struct gate_rule {
   char signals[GATE_MAX_SIGNALS][MEASUREMENT_NAME]; //
   int signal_count;                                 // 0: all signals of the layer
   double limit;                                     // >= 0, of the measurement's unit
+  double time_tolerance;                            // s  >= 0, of the metric 'tube'
   char reason[GATE_REASON];                         // why the limit has its value
 } gate_rule;
 
@@ -50,17 +51,51 @@ typedef struct scenario_growth {
   double rate;        // 1/s  otherwise
 } scenario_growth;
 
+enum { SCENARIO_MAX_STEPS = 8 };
+
+// L1: eigenvalues of both engines over speeds.
+typedef struct scenario_linear {
+  int count;         // of speeds, ends included; 0: not asked
+  double slow, fast; // m/s
+} scenario_linear;
+
+// L4: the candidate's ride with several steps.
+typedef struct scenario_convergence {
+  int count;                       // of steps; 0: not asked
+  double step[SCENARIO_MAX_STEPS]; // s  falling
+  double order;                    //    expected; NaN: what the engine says of itself
+  double tolerance;                //    of the signals' units: models that differ by less are one
+  bool different;                  //    the models are expected to differ
+} scenario_convergence;
+
+// L5: up to where an unstable ride can be predicted.
+typedef struct scenario_horizon {
+  bool asked;
+  double share; // of the L2 limit that a twin disturbed by one ulp may use up
+} scenario_horizon;
+
+// L6: what a ride costs.
+typedef struct scenario_cost {
+  int repeats; // 0: not asked
+} scenario_cost;
+
 typedef struct scenario {
   char name[SCENARIO_NAME];           // the file's name without .yml
   char path[SCENARIO_PATH];           //
   char title[SCENARIO_TITLE];         //
   char bicycle_name[SCENARIO_PATH];   // as the file names it
+  char model_path[SCENARIO_PATH];     // of a bicycle that came as a MuJoCo model; else empty
   bike_bicycle bicycle;               //
   bike_model model;                   //
+  double rider_offset;                // m  to the right; already in `bicycle`
   bike_state start;                   //
   double duration, sample;            // s
   scenario_growth growth;             //
   scenario_instants instants;         //
+  scenario_linear linear;             //
+  scenario_convergence convergence;   //
+  scenario_horizon horizon;           //
+  scenario_cost cost;                 //
   engine_choice reference, candidate; //
   gate_rules rules;                   // where several fit a measurement, the last one judges it
 } scenario;

@@ -79,6 +79,7 @@ static int read_rule(const bike_yaml *yaml, const bike_field *where, gate_rules 
       {"metric", read_metric, offsetof(gate_rule, metric), true},
       {"signals", read_signals, offsetof(gate_rule, signals), false},
       {"limit", bike_yaml_not_negative, offsetof(gate_rule, limit), true},
+      {"time_tolerance", bike_yaml_not_negative, offsetof(gate_rule, time_tolerance), false},
       {"reason", read_reason, offsetof(gate_rule, reason), true},
   };
   gate_rule rule = {0};
@@ -89,6 +90,9 @@ static int read_rule(const bike_yaml *yaml, const bike_field *where, gate_rules 
   if (code) return code;
   while (rule.signal_count < GATE_MAX_SIGNALS && *rule.signals[rule.signal_count])
     rule.signal_count++;
+  if (rule.time_tolerance > 0 && strcmp(rule.metric, "tube") != 0)
+    return bike_yaml_fail(yaml, where, BIKE_ERROR_SYNTAX,
+                          "only the metric 'tube' has a time_tolerance");
   code = check_names(yaml, where, &rule);
   return code ? code : add_rule(yaml, where, rules, &rule);
 }

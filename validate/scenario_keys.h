@@ -16,6 +16,15 @@ typedef struct scenario_draft {
 bike_value_reader scenario_read_engine; // engine_choice
 bike_value_reader scenario_read_gates;  // gate_rules
 
+// The questions of single layers (scenario_study.c).
+bike_value_reader scenario_read_linear;      // scenario_linear
+bike_value_reader scenario_read_convergence; // scenario_convergence
+bike_value_reader scenario_read_horizon;     // scenario_horizon
+bike_value_reader scenario_read_cost;        // scenario_cost
+
+// A whole number 0..most, read as a double.
+int scenario_read_whole(const bike_yaml *yaml, const bike_field *field, double most, double *out);
+
 // Rules of a file that holds `gates:` and nothing else.
 int scenario_include_gates(gate_rules *out, const char *path, bike_file_error *error);
 

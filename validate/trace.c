@@ -76,6 +76,10 @@ const trace_signal *trace_find_signal(const char *name) {
   return NULL;
 }
 
+bool trace_has(const trace *t, const trace_signal *signal) {
+  return !(t->missing >> (signal - trace_signals) & 1);
+}
+
 double trace_value(const trace_row *row, const trace_signal *signal) {
   double value;
   memcpy(&value, (const char *)row + signal->offset, sizeof value);
@@ -89,7 +93,7 @@ static bool may_be_not_finite(const trace_signal *signal) {
 long trace_first_not_finite(const trace *t) {
   for (size_t k = 0; k < t->count; k++)
     for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
-      if (!may_be_not_finite(&trace_signals[i]) &&
+      if (!may_be_not_finite(&trace_signals[i]) && trace_has(t, &trace_signals[i]) &&
           !isfinite(trace_value(&t->rows[k], &trace_signals[i])))
         return (long)k;
   return -1;

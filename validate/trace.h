@@ -4,6 +4,7 @@
 #define VALIDATE_TRACE_H
 
 #include <bicycle/ride.h>
+#include <stdint.h>
 
 // What every engine says of a moment. Index 0: rear, 1: front wheel.
 typedef struct trace_row {
@@ -17,10 +18,12 @@ typedef struct trace {
   trace_row *rows;
   size_t count, room;
   bool has_contacts;    // slip and height are measured, not zero by construction
+  uint64_t missing;     // bit k: trace_signals[k] is not known to the engine, its numbers are NaN
   bool complete;        // the whole duration was ridden
   double end_time;      // s
   bike_event end_event; // what ended the ride where it is not complete
-  long steps;           //
+  long steps;           // of the integrator; 0 of an engine that does not say
+  long evaluations;     // of the right-hand sides; as steps
   double wall_time;     // s
 } trace;
 
@@ -43,6 +46,7 @@ enum { TRACE_SIGNAL_COUNT = 27 };
 extern const trace_signal trace_signals[TRACE_SIGNAL_COUNT];
 
 const trace_signal *trace_find_signal(const char *name);
+bool trace_has(const trace *t, const trace_signal *signal);
 double trace_value(const trace_row *row, const trace_signal *signal);
 
 // Index of the first row in which a number is not finite, or -1. Friction (a quotient of forces)

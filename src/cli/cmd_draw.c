@@ -23,14 +23,11 @@ typedef struct arguments {
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
   switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &args->file;
+    return 0;
   case 'o':
     args->output = text;
-    return 0;
-  case ARGP_KEY_ARG:
-    term_take_argument(&args->file, text, "FILE");
-    return 0;
-  case ARGP_KEY_END:
-    if (!args->file) term_usage("the bicycle's FILE is missing");
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -57,7 +54,8 @@ static term_exit write_picture(const bike_bicycle *bicycle, const char *path) {
 }
 
 int cmd_draw(int argc, char **argv) {
-  const struct argp argp = {options, parse, "FILE", documentation, NULL, NULL, NULL};
+  const struct argp_child children[] = {{&term_file_argp, 0, NULL, 0}, {0}};
+  const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {0};
   term_parse(&argp, example, argc, argv, &args);
   bike_bicycle bicycle;

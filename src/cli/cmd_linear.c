@@ -1,48 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 // bicycle linear: the matrices of the linearised equations of motion.
 #include "commands.h"
+#include "terminal/command.h"
 #include "terminal/data.h"
 #include "terminal/json.h"
 #include "terminal/table.h"
-
-#include "terminal/command.h"
+#include "turn_pick.h"
 
 #include <bicycle/error.h>
 #include <bicycle/linear.h>
 
-static const char example[] = "Example: bicycle linear benchmark --speed 5 --json\n";
+static const char example[] = "Example: bicycle linear benchmark --speed 5 --json\n"
+                              "         bicycle linear roadster --speed 5.5 --lean 10deg\n";
 
 static const char documentation[] =
     "M q'' + v C1 q' + (g K0 + v^2 K2) q = f with q = (lean, steer), f = (roll torque, steer "
     "torque), and x' = A x + B u with x = (steer, lean, steer rate, lean rate), u = (steer torque, "
     "roll torque, acceleration of the rider offset), about riding straight and upright at a "
-    "constant speed. Steer damping is in A alone.";
+    "constant speed. Steer damping is in A alone. With --lean or --rider-offset A and B are those "
+    "of the stationary turn of that speed, the one nearest to upright where there are several.";
 
 typedef struct arguments {
-  const char *file;
+  term_question question;
   double speed;
   bool has_speed;
-  term_show show;
+  bike_turn_def turn; // with the lean or the offset, where one is given
 } arguments;
 
-enum { KEY_SPEED = TERM_KEY_FIRST };
+enum { KEY_SPEED = TERM_KEY_FIRST, KEY_LEAN, KEY_RIDER_OFFSET };
+
+static void give(bike_turn_def *turn, bike_turn_variable variable, double value) {
+  turn->given[variable] = true;
+  turn->value[variable] = value;
+}
+
+static bool asks_for_turn(const arguments *args) {
+  return args->turn.given[BIKE_TURN_LEAN] || args->turn.given[BIKE_TURN_OFFSET];
+}
+
+static void check(arguments *args) {
+  if (!args->has_speed) term_usage("--speed is missing");
+  if (!asks_for_turn(args)) return;
+  if (args->turn.given[BIKE_TURN_LEAN] && args->turn.given[BIKE_TURN_OFFSET])
+    term_usage("--lean or --rider-offset, not both");
+  if (args->speed < 0) term_usage("--speed: %g is negative, and a turn is asked for", args->speed);
+  give(&args->turn, BIKE_TURN_SPEED, args->speed);
+}
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &args->show;
+    state->child_inputs[0] = &args->question;
     return 0;
   case KEY_SPEED:
     args->speed = term_number_of("--speed", text);
     args->has_speed = true;
     return 0;
-  case ARGP_KEY_ARG:
-    term_take_argument(&args->file, text, "FILE");
+  case KEY_LEAN:
+    give(&args->turn, BIKE_TURN_LEAN, term_angle_of("--lean", text));
+    return 0;
+  case KEY_RIDER_OFFSET:
+    give(&args->turn, BIKE_TURN_OFFSET, term_number_of("--rider-offset", text));
     return 0;
   case ARGP_KEY_END:
-    if (!args->file) term_usage("the bicycle's FILE is missing");
-    if (!args->has_speed) term_usage("--speed is missing");
+    check(args);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -51,6 +73,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "V", 0, "Speed, m/s (required)", 1},
+    {"lean", KEY_LEAN, "ANGLE", 0, "About the turn with this lean, rad or 5deg", 1},
+    {"rider-offset", KEY_RIDER_OFFSET, "W", 0, "About the turn with the rider there, m", 1},
     {0},
 };
 
@@ -59,6 +83,7 @@ typedef struct linear_answer {
   bike_upright_matrices upright;
   bike_linear linear;
   bool has_upright; // the bicycle is mirror-symmetric
+  bike_turn turn;   // about which A and B are taken; straight riding unless asked for
 } linear_answer;
 
 enum { Q_COUNT = 2, X_COUNT = 4, U_COUNT = 3 };
@@ -82,6 +107,7 @@ static void convert(double *matrix, const bool *row_left, int rows, const bool *
 }
 
 static void convert_all(linear_answer *out, double left) {
+  out->turn.steer *= left;
   double *const upright[] = {out->upright.M, out->upright.C1, out->upright.K0, out->upright.K2};
   for (int i = 0; i < 4; i++) convert(upright[i], q_left, Q_COUNT, q_left, Q_COUNT, left);
   convert(out->linear.A, x_left, X_COUNT, x_left, X_COUNT, left);
@@ -101,13 +127,19 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args,
   const bike_upright_matrices *upright = &answer->upright;
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name,
-      "convention", term_convention_name(args->show.convention), "speed",
+      "convention", term_convention_name(args->question.show.convention), "speed",
       term_json_number(args->speed), "coordinates", term_json_texts(coordinates, Q_COUNT), "M",
       upright_json(answer, upright->M), "C1", upright_json(answer, upright->C1), "K0",
       upright_json(answer, upright->K0), "K2", upright_json(answer, upright->K2), "states",
       term_json_texts(states, X_COUNT), "inputs", term_json_texts(inputs, U_COUNT), "A",
       term_json_matrix(answer->linear.A, X_COUNT, X_COUNT), "B",
       term_json_matrix(answer->linear.B, X_COUNT, U_COUNT));
+  const bike_turn *turn = &answer->turn;
+  if (asks_for_turn(args))
+    json_object_set_new(document, "turn",
+                        json_pack("{s:o, s:o, s:o}", "lean", term_json_number(turn->lean), "steer",
+                                  term_json_number(turn->steer), "rider_offset",
+                                  term_json_number(turn->rider_offset)));
   if (!answer->has_upright) json_object_set_new(document, "reason", json_string(no_upright));
   return term_json_write(document, stdout);
 }
@@ -141,7 +173,10 @@ static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
                          const linear_answer *answer) {
   const bike_upright_matrices *upright = &answer->upright;
   printf("%s at %g m/s, convention %s\n", bicycle->name, args->speed,
-         term_convention_name(args->show.convention));
+         term_convention_name(args->question.show.convention));
+  if (asks_for_turn(args))
+    printf("A and B about the turn with lean %.10g rad, steer %.10g rad, rider %.10g m\n",
+           answer->turn.lean, answer->turn.steer, answer->turn.rider_offset + 0.0);
   bool printed = true;
   if (answer->has_upright)
     printed = print_q("M", upright->M) && print_q("C1", upright->C1) &&
@@ -152,32 +187,36 @@ static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
          print_matrix("B", answer->linear.B, states, X_COUNT, inputs, U_COUNT);
 }
 
-// The linearisation at upright riding. An error code of the library.
-static int linearise(linear_answer *out, const bike_model *model, double speed) {
-  const bike_state state = {.speed = speed};
-  const bike_input input = {0};
+// The linearisations. An error code of the library.
+static int linearise(linear_answer *out, const bike_model *model, const arguments *args) {
+  out->turn.speed = args->speed;
   int error = bike_linearize_upright(&out->upright, model);
   out->has_upright = error == BIKE_OK;
-  if (error != BIKE_OK && error != BIKE_ERROR_NOT_STATIONARY) return error;
+  if (error == BIKE_ERROR_NOT_STATIONARY) error = BIKE_OK;
+  if (error == BIKE_OK && asks_for_turn(args)) error = turn_pick(&out->turn, model, &args->turn);
+  if (error != BIKE_OK) return error;
+  const bike_turn *turn = &out->turn;
+  const bike_state state = {.lean = turn->lean, .steer = turn->steer, .speed = turn->speed};
+  const bike_input input = {.rider_offset = turn->rider_offset};
   return bike_linearize(&out->linear, model, &state, &input);
 }
 
 int cmd_linear(int argc, char **argv) {
-  const struct argp_child children[] = {{&term_show_argp, 0, NULL, 0}, {0}};
+  const struct argp_child children[] = {{&term_question_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
-  arguments args = {0};
+  arguments args = {.turn = bike_default_turn_def()};
   term_parse(&argp, example, argc, argv, &args);
 
   bike_bicycle bicycle;
   bike_model model;
-  term_exit code = term_load_bicycle(&bicycle, &model, args.file);
+  term_exit code = term_load_bicycle(&bicycle, &model, args.question.file);
   if (code != TERM_DONE) return code;
 
   linear_answer answer = {0};
-  int error = linearise(&answer, &model, args.speed);
-  if (error != BIKE_OK) return term_fail_bike(error, args.file);
-  convert_all(&answer, term_left_sign(args.show.convention));
-  bool printed = args.show.json ? print_json(&bicycle, &args, &answer)
-                                : print_tables(&bicycle, &args, &answer);
-  return printed ? TERM_DONE : term_fail_bike(BIKE_ERROR_MEMORY, args.file);
+  int error = linearise(&answer, &model, &args);
+  if (error != BIKE_OK) return term_fail_bike(error, args.question.file);
+  convert_all(&answer, term_left_sign(args.question.show.convention));
+  bool printed = args.question.show.json ? print_json(&bicycle, &args, &answer)
+                                         : print_tables(&bicycle, &args, &answer);
+  return printed ? TERM_DONE : term_fail_bike(BIKE_ERROR_MEMORY, args.question.file);
 }

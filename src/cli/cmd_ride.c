@@ -1,178 +1,151 @@
 // SPDX-License-Identifier: Apache-2.0
 // bicycle ride: the equations integrated in time.
 #include "commands.h"
-#include "ride_options.h"
-#include "ride_record.h"
-#include "terminal/data.h"
+#include "terminal/ride.h"
 
 #include <bicycle/error.h>
-#include <bicycle/input.h>
-#include <bicycle/output.h>
 #include <bicycle/ride.h>
-#include <math.h>
-#include <signal.h>
-#include <unistd.h>
+#include <string.h>
 
-// All that one ride needs.
-typedef struct rider {
-  const ride_options *options;
-  bike_bicycle bicycle;
-  bike_model model;
-  bike_input_table *table; // NULL: the input is constant
-  bike_output output;
-  ride_record record;
-} rider;
+//---------------------------------- command line --------------------------------------------------
 
-// Set by SIGINT; looked at after every sample.
-static volatile sig_atomic_t interrupted = 0;
+static const char example[] = "Example: bicycle ride roadster --speed 6 --lean-rate 0.2 --time 10 "
+                              "--sample 0.01 -o ride.csv\n";
 
-static void note_interrupt(int signal_number) {
-  (void)signal_number;
-  interrupted = 1;
+static const char documentation[] =
+    "Rides a bicycle from a given state, hands off or with one of the inputs, and writes the "
+    "motion "
+    "as CSV, one row at every multiple of the sampling time. Wheel lift is reported and does not "
+    "end "
+    "the ride; lying down, standstill and the end of the model's validity do. FILE is a bicycle "
+    "file or the name of a shipped bicycle.";
+
+typedef struct arguments {
+  term_ride_options ride;
+  bike_ride_def def; // how to integrate; the rest is filled in from `ride`
+  bool has_step, has_tolerance;
+} arguments;
+
+enum { KEY_METHOD = TERM_KEY_FIRST, KEY_RTOL, KEY_ATOL, KEY_STEP };
+
+static const struct argp_option options[] = {
+    {"method", KEY_METHOD, "rk8|adams|rk4", 0,
+     "Adaptive Runge-Kutta of order 8 (default), Adams, or fixed-step Runge-Kutta of order 4", 4},
+    {"rtol", KEY_RTOL, "X", 0, "Relative tolerance of rk8 and adams (1e-13)", 4},
+    {"atol", KEY_ATOL, "X", 0, "Absolute tolerance of rk8 and adams (1e-13)", 4},
+    {"step", KEY_STEP, "H", 0, "Step of rk4, a whole fraction of the sampling time, s (0.001)", 4},
+    {0},
+};
+
+static bike_method method_of(const char *text) {
+  static const char *const names[] = {
+      [BIKE_METHOD_RK8] = "rk8", [BIKE_METHOD_ADAMS] = "adams", [BIKE_METHOD_RK4] = "rk4"};
+  for (int i = BIKE_METHOD_RK8; i <= BIKE_METHOD_RK4; i++)
+    if (strcmp(text, names[i]) == 0) return (bike_method)i;
+  term_usage("--method: '%s' is none of rk8, adams, rk4", text);
 }
 
-// The first interrupt ends the ride in good order, a second one at once. Where interrupts are
-// ignored (a job in the background) they stay so.
-static void catch_interrupt(void) {
-  struct sigaction old;
-  const struct sigaction action = {.sa_handler = note_interrupt, .sa_flags = (int)SA_RESETHAND};
-  if (sigaction(SIGINT, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
-    sigaction(SIGINT, &action, NULL);
+static void check_method(const arguments *args) {
+  bool fixed = args->def.method == BIKE_METHOD_RK4;
+  if (args->has_step && !fixed) term_usage("--step is for --method rk4");
+  if (args->has_tolerance && fixed) term_usage("--rtol and --atol are not for --method rk4");
 }
 
-static void give_input(double time, bike_input *out, void *user) {
-  const rider *self = user;
-  if (self->table)
-    bike_input_table_at(time, out, self->table);
-  else
-    *out = self->options->constant;
+static error_t parse(int key, char *text, struct argp_state *state) {
+  arguments *args = state->input;
+  switch (key) {
+  case ARGP_KEY_INIT:
+    state->child_inputs[0] = &args->ride;
+    return 0;
+  case KEY_METHOD:
+    args->def.method = method_of(text);
+    return 0;
+  case KEY_RTOL:
+    args->def.rtol = term_positive_of("--rtol", text);
+    args->has_tolerance = true;
+    return 0;
+  case KEY_ATOL:
+    args->def.atol = term_positive_of("--atol", text);
+    args->has_tolerance = true;
+    return 0;
+  case KEY_STEP:
+    args->def.step = term_positive_of("--step", text);
+    args->has_step = true;
+    return 0;
+  case ARGP_KEY_END:
+    check_method(args);
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
 }
+
+// The definition without what is called during the ride.
+static void complete_def(arguments *args) {
+  const term_ride_options *ride = &args->ride;
+  args->def.start = ride->start.state;
+  args->def.duration = ride->duration;
+  args->def.sample = ride->sample;
+  args->def.lean_limit = ride->lean_limit;
+  args->def.stop_at_lift = ride->stop_at_lift;
+}
+
+//---------------------------------- the ride ------------------------------------------------------
 
 static int take_sample(const bike_sample *sample, const bike_sample_more *more, void *user) {
-  rider *self = user;
-  ride_record_add(&self->record, sample, more);
-  bool lost = self->output.stream && ferror(self->output.stream);
-  return interrupted || lost;
+  return term_ride_take(user, sample, more);
 }
 
-static json_t *events_json(const bike_ride_result *result) {
-  json_t *array = json_array();
-  for (int i = 0; i < result->event_count && i < BIKE_MAX_EVENTS; i++) {
-    const bike_event *event = &result->events[i];
-    json_array_append_new(array, json_pack("{s:o, s:s}", "time", term_json_number(event->time),
-                                           "reason", bike_event_string(event->kind)));
-  }
-  return array;
+static term_exit fail_ride(const term_ride *self, const bike_ride_def *def, int error,
+                           double time) {
+  const char *file = self->options->start.file;
+  const char *rule = error == BIKE_ERROR_ARGUMENT ? bike_ride_broken_rule(def) : NULL;
+  if (rule) return term_fail(TERM_USAGE, "%s", rule);
+  if (self->record.count == 0) return term_fail_bike(error, file);
+  return term_fail(term_exit_of(error), "%s at %.9g s: %s", file, time, bike_error_string(error));
 }
 
-static bool print_json(const rider *self, const bike_ride_result *result, int error) {
-  const ride_record *record = &self->record;
-  json_t *document = json_pack(
-      "{s:s, s:s, s:o, s:b, s:I, s:o, s:o, s:{s:o, s:o, s:o}, s:I, s:I}", "bicycle",
-      self->bicycle.name, "convention", term_convention_name(record->convention), "end_time",
-      term_json_number(result->end_time), "complete", result->complete, "rows",
-      (json_int_t)record->count, "events", events_json(result), "end", ride_record_end(record),
-      "energy", "start", term_json_number(record->start_energy), "work",
-      term_json_number(record->work), "balance", term_json_number(record->balance), "evaluations",
-      (json_int_t)result->evaluations, "steps", (json_int_t)result->steps);
-  if (error != BIKE_OK)
-    json_object_set_new(document, "error", json_string(bike_error_string(error)));
-  if (record->columns) json_object_set(document, "samples", record->columns);
-  return term_json_write(document, stdout);
-}
-
-// Events and a summary on stderr.
-static void tell(const rider *self, const bike_ride_result *result) {
-  const ride_record *record = &self->record;
-  for (int i = 0; i < result->event_count && i < BIKE_MAX_EVENTS; i++)
-    term_message("%.9g s: %s", result->events[i].time, bike_event_string(result->events[i].kind));
-  if (result->event_count > BIKE_MAX_EVENTS)
-    term_message("and %d more events", result->event_count - BIKE_MAX_EVENTS);
-  term_message("%ld rows to %.9g s, convention %s, energy balance %.1e", record->count,
-               result->end_time, term_convention_name(record->convention), record->balance);
-}
-
-static term_exit fail_ride(const rider *self, int error, double time) {
-  if (error == BIKE_ERROR_ARGUMENT)
-    return term_fail(TERM_USAGE, "a number is outside its range: 0 < sample <= time <= 1e9 sample, "
-                                 "the step divides the sample, rtol >= 9e-16");
-  if (self->record.count == 0) return term_fail_bike(error, self->options->start.file);
-  return term_fail(term_exit_of(error), "%s at %.9g s: %s", self->options->start.file, time,
-                   bike_error_string(error));
-}
-
-// Ends the output: kept where rows mean something, also those before a failure of the solver.
-static term_exit close_output(rider *self, term_exit code, bool keep) {
-  bike_file_error error;
-  if (!keep) {
-    bike_output_abort(&self->output);
-    return code;
-  }
-  if (self->output.stream && bike_output_commit(&self->output, &error) != BIKE_OK)
-    return term_fail(TERM_USAGE, "%s", error.text);
-  return code;
-}
-
-static term_exit ride(rider *self) {
-  bike_ride_def def = self->options->def;
+static term_exit ride(term_ride *self, bike_ride_def def, const bike_bicycle *bicycle,
+                      const bike_model *model) {
   bike_ride_result result = {0};
-  def.input = give_input;
+  def.input = term_ride_input;
   def.on_sample = take_sample;
   def.user = self;
   if (self->table) def.breakpoints = bike_input_table_times(self->table, &def.breakpoint_count);
-  catch_interrupt();
-  int error = bike_ride(&result, &self->model, &def);
-  term_progress_clear(&self->record.progress);
-  if (interrupted) {
-    close_output(self, TERM_INVALID, false);
-    raise(SIGINT); // its action is the default again: the shell sees what happened
-    return TERM_INVALID;
-  }
-  term_exit code = error == BIKE_OK || error == BIKE_ERROR_INTERRUPTED
-                       ? TERM_DONE
-                       : fail_ride(self, error, result.end_time);
-  bool keep = code != TERM_USAGE && self->record.count > 0;
-  code = close_output(self, code, keep);
-  if (!keep || code == TERM_USAGE) return code;
-  tell(self, &result);
-  if (self->options->show.json && !print_json(self, &result, error))
-    return term_fail_bike(BIKE_ERROR_MEMORY, self->options->start.file);
-  return code;
-}
-
-// Reads the inputs over time and finds where rows go. What is opened is closed by `finish`.
-static term_exit prepare(rider *self) {
-  const ride_options *options = self->options;
-  bike_file_error error;
-  int code = BIKE_OK;
-  if (options->input_file)
-    code =
-        bike_input_table_create(&self->table, options->input_file, options->def.duration, &error);
-  bool wants_rows = options->output || !options->show.json;
-  if (code == BIKE_OK && wants_rows)
-    code = bike_output_begin(&self->output, options->output, &error);
-  if (code != BIKE_OK) return term_fail(term_exit_of(code), "%s", error.text);
-  self->record = (ride_record){.rows = self->output.stream,
-                               .convention = options->show.convention,
-                               .duration = options->def.duration,
-                               .shows_progress = options->output || !isatty(STDOUT_FILENO)};
-  ride_record_begin(&self->record, !wants_rows);
-  return TERM_DONE;
-}
-
-static void finish(rider *self) {
-  bike_output_abort(&self->output);
-  bike_input_table_free(self->table);
-  ride_record_free(&self->record);
+  int error = bike_ride(&result, model, &def);
+  term_ride_stop(self);
+  // A stream that takes no more rows is reported when it is committed.
+  bool whole = error == BIKE_OK || error == BIKE_ERROR_INTERRUPTED;
+  term_exit code = whole ? TERM_DONE : fail_ride(self, &def, error, result.end_time);
+  const term_ride_outcome outcome = {.bicycle = bicycle->name,
+                                     .end_time = result.end_time,
+                                     .complete = result.complete,
+                                     .end = whole ? &result.end : NULL,
+                                     .event_count = result.event_count,
+                                     .events = result.events,
+                                     .error = whole ? NULL : bike_error_string(error),
+                                     .note = "",
+                                     .more = json_pack("{s:I, s:I}", "evaluations",
+                                                       (json_int_t)result.evaluations, "steps",
+                                                       (json_int_t)result.steps)};
+  return term_ride_end(self, &outcome, code);
 }
 
 int cmd_ride(int argc, char **argv) {
-  const ride_options options = ride_parse(argc, argv);
-  rider self = {.options = &options};
+  const struct argp_child children[] = {{&term_ride_argp, 0, NULL, 0}, {0}};
+  const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
+  arguments args = {.def = bike_default_ride_def()};
+  args.ride.lean_limit = args.def.lean_limit;
+  term_parse(&argp, example, argc, argv, &args);
+  complete_def(&args);
+
+  bike_bicycle bicycle;
+  bike_model model;
+  term_ride self = {0};
   term_exit code =
-      cli_load(&self.bicycle, &self.model, options.start.file, options.constant.rider_offset);
-  if (code == TERM_DONE) code = prepare(&self);
-  if (code == TERM_DONE) code = ride(&self);
-  finish(&self);
+      term_load_with_rider(&bicycle, &model, args.ride.start.file, args.ride.constant.rider_offset);
+  if (code == TERM_DONE) code = term_ride_begin(&self, &args.ride);
+  if (code == TERM_DONE) code = ride(&self, args.def, &bicycle, &model);
+  term_ride_free(&self);
   return code;
 }

@@ -21,10 +21,9 @@ static const char documentation[] =
     "every disturbance dies out.";
 
 typedef struct arguments {
-  const char *file;
+  term_question question;
   term_range speeds;
   double search[2]; // m/s
-  term_show show;
 } arguments;
 
 enum { KEY_SPEEDS = TERM_KEY_FIRST, KEY_SEARCH };
@@ -33,7 +32,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
   switch (key) {
   case ARGP_KEY_INIT:
-    state->child_inputs[0] = &args->show;
+    state->child_inputs[0] = &args->question;
     return 0;
   case KEY_SPEEDS:
     if (!term_parse_range(&args->speeds, text))
@@ -42,12 +41,6 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case KEY_SEARCH:
     if (!term_parse_interval(args->search, text) || args->search[0] < 0)
       term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
-    return 0;
-  case ARGP_KEY_ARG:
-    term_take_argument(&args->file, text, "FILE");
-    return 0;
-  case ARGP_KEY_END:
-    if (!args->file) term_usage("the bicycle's FILE is missing");
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;
@@ -70,14 +63,14 @@ static double first_or_nan(const double *speeds, int count) {
 static json_t *eigenvalues_json(const term_range *speeds, const bike_eigenvalues *values) {
   json_t *array = json_array();
   for (long i = 0; i < speeds->count; i++) {
-    double pairs[8];
+    double pairs[4][2];
     for (int k = 0; k < 4; k++) {
-      pairs[2 * k] = values[i].re[k];
-      pairs[2 * k + 1] = values[i].im[k];
+      pairs[k][0] = values[i].re[k];
+      pairs[k][1] = values[i].im[k];
     }
     json_array_append_new(array, json_pack("{s:o, s:o}", "speed",
                                            term_json_number(term_range_point(speeds, i)), "values",
-                                           term_json_matrix(pairs, 4, 2)));
+                                           term_json_matrix(pairs[0], 4, 2)));
   }
   return array;
 }
@@ -86,7 +79,7 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args,
                        const bike_eigenvalues *values, const bike_critical_speeds *critical) {
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name, "convention",
-      term_convention_name(args->show.convention), "eigenvalues",
+      term_convention_name(args->question.show.convention), "eigenvalues",
       eigenvalues_json(&args->speeds, values), "weave_speed",
       term_json_number(first_or_nan(critical->weave, critical->weave_count)), "capsize_speed",
       term_json_number(first_or_nan(critical->capsize, critical->capsize_count)), "weave_speeds",
@@ -95,10 +88,6 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args,
       term_json_matrix(critical->ranges[0], (size_t)critical->range_count, 2), "search",
       term_json_numbers(args->search, 2));
   return term_json_write(document, stdout);
-}
-
-static bool is_stable(const bike_eigenvalues *values) {
-  return values->re[0] < 0; // the largest real part
 }
 
 static void format_eigenvalue(char out[64], double re, double im) {
@@ -117,7 +106,7 @@ static bool print_eigenvalues(const term_range *speeds, const bike_eigenvalues *
     char speed[32], text[4][64];
     snprintf(speed, sizeof speed, "%g", term_range_point(speeds, i));
     for (int k = 0; k < 4; k++) format_eigenvalue(text[k], values[i].re[k], values[i].im[k]);
-    bool stable = is_stable(&values[i]);
+    bool stable = bike_all_decay(&values[i]);
     term_table_add(
         table, stable ? TERM_GOOD : TERM_PLAIN,
         (const char *const[]){speed, text[0], text[1], text[2], text[3], stable ? "yes" : "no"});
@@ -136,7 +125,7 @@ static void print_speeds(const char *name, const double *speeds, int count) {
 static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
                          const bike_eigenvalues *values, const bike_critical_speeds *critical) {
   printf("%s, riding straight and upright, convention %s\n\n", bicycle->name,
-         term_convention_name(args->show.convention));
+         term_convention_name(args->question.show.convention));
   bool printed = print_eigenvalues(&args->speeds, values);
   printf("\nbetween %g and %g m/s:\n", args->search[0], args->search[1]);
   print_speeds("weave speed", critical->weave, critical->weave_count);
@@ -157,14 +146,14 @@ static int find_eigenvalues(bike_eigenvalues *out, const bike_model *model,
 }
 
 int cmd_stability(int argc, char **argv) {
-  const struct argp_child children[] = {{&term_show_argp, 0, NULL, 0}, {0}};
+  const struct argp_child children[] = {{&term_question_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = defaults;
   term_parse(&argp, example, argc, argv, &args);
 
   bike_bicycle bicycle;
   bike_model model;
-  term_exit code = term_load_bicycle(&bicycle, &model, args.file);
+  term_exit code = term_load_bicycle(&bicycle, &model, args.question.file);
   if (code != TERM_DONE) return code;
 
   bike_critical_speeds critical = {0};
@@ -173,10 +162,10 @@ int cmd_stability(int argc, char **argv) {
   if (error == BIKE_OK)
     error = bike_upright_critical_speeds(&critical, &model, args.search[0], args.search[1]);
   if (error == BIKE_OK) {
-    bool printed = args.show.json ? print_json(&bicycle, &args, values, &critical)
-                                  : print_tables(&bicycle, &args, values, &critical);
+    bool printed = args.question.show.json ? print_json(&bicycle, &args, values, &critical)
+                                           : print_tables(&bicycle, &args, values, &critical);
     error = printed ? BIKE_OK : BIKE_ERROR_MEMORY;
   }
   free(values);
-  return error == BIKE_OK ? TERM_DONE : term_fail_bike(error, args.file);
+  return error == BIKE_OK ? TERM_DONE : term_fail_bike(error, args.question.file);
 }

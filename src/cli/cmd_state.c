@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // bicycle state: the equations evaluated once.
 #include "commands.h"
-#include "start.h"
 #include "terminal/json.h"
+#include "terminal/start.h"
 #include "terminal/table.h"
 
 #include <bicycle/error.h>
@@ -15,7 +15,7 @@ static const char documentation[] =
     "bicycle file or the name of a shipped bicycle.";
 
 typedef struct arguments {
-  cli_start start;
+  term_start start;
   bike_input input;
   term_show show;
 } arguments;
@@ -136,14 +136,14 @@ static bool print_table(const bike_bicycle *bicycle, const answer answers[ANSWER
 
 int cmd_state(int argc, char **argv) {
   const struct argp_child children[] = {
-      {&cli_start_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
+      {&term_start_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {0};
   term_parse(&argp, example, argc, argv, &args);
 
   bike_bicycle bicycle;
   bike_model model;
-  term_exit code = cli_load(&bicycle, &model, args.start.file, args.input.rider_offset);
+  term_exit code = term_load_with_rider(&bicycle, &model, args.start.file, args.input.rider_offset);
   if (code != TERM_DONE) return code;
 
   bike_snapshot snapshot;

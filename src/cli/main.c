@@ -15,6 +15,11 @@ static const term_command commands[] = {
     {"ride", cmd_ride, "Ride it for a while: a CSV of the motion"},
     {"linear", cmd_linear, "The linearised equations of motion"},
     {"stability", cmd_stability, "Eigenvalues, weave and capsize speeds of riding straight"},
+    {"turn", cmd_turn, "Stationary circles: all that have two given values"},
+    {"effects", cmd_effects, "What every parameter does to the weave and capsize speeds"},
+    {"cycle", cmd_cycle, "The limit cycle that is left beyond the weave speed"},
+    {"basin", cmd_basin, "From which leans and steers it comes back to riding straight"},
+    {"figures", cmd_figures, "The paper's figures 2 to 4 for any bicycle, as SVG and CSV"},
     {"draw", cmd_draw, "A side view with every length named, as SVG"},
 };
 

@@ -103,7 +103,7 @@ static int read_assembly(const bike_yaml *yaml, const bike_field *field, void *t
                                              BIKE_FRONT_WHEEL};
   component *c = target;
   for (int i = 0; i < 4; ++i) {
-    if (!bike_yaml_is_plain(field, words[i])) continue;
+    if (!bike_yaml_is_text(field, words[i])) continue;
     c->part.assembly = assemblies[i];
     return BIKE_OK;
   }
@@ -125,7 +125,7 @@ static int read_theta(const bike_yaml *yaml, const bike_field *field, component 
 
 static int read_inertia(const bike_yaml *yaml, const bike_field *field, void *target) {
   component *c = target;
-  if (bike_yaml_is_plain(field, "none")) return BIKE_OK;
+  if (bike_yaml_is_text(field, "none")) return BIKE_OK;
   static const char kinds[] = "must be none, or one of spin: T, steering: T, full: [Ixx, Iyy, Izz, "
                               "Ixy, Ixz, Iyz]";
   void *cursor = NULL;

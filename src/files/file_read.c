@@ -41,10 +41,10 @@ static int read_form(bike_file *out, const bike_yaml *yaml) {
       return read_symbols(out, bike_read_flat_form, yaml);
     return bike_yaml_fail(yaml, &form, BIKE_ERROR_SYNTAX, "key 'parameterization' is missing");
   }
-  if (bike_yaml_is_plain(&form, "Meijaard2007") || bike_yaml_is_plain(&form, "benchmark"))
+  if (bike_yaml_is_text(&form, "Meijaard2007") || bike_yaml_is_text(&form, "benchmark"))
     return read_symbols(out, bike_read_values_form, yaml);
-  if (bike_yaml_is_plain(&form, "components")) return bike_read_components(&out->bicycle, yaml);
-  if (bike_yaml_is_plain(&form, "principal") || bike_yaml_is_plain(&form, "Moore2019"))
+  if (bike_yaml_is_text(&form, "components")) return bike_read_components(&out->bicycle, yaml);
+  if (bike_yaml_is_text(&form, "principal") || bike_yaml_is_text(&form, "Moore2019"))
     return bike_yaml_fail(yaml, &form, BIKE_ERROR_SYNTAX,
                           "principal (Moore2019) is not supported: convert it to Meijaard2007 "
                           "with BicycleParameters");

@@ -20,8 +20,7 @@ enum {
 };
 
 static const char *shown(const bike_output *out) {
-  if (out->target) return out->target;
-  return out->stream == stdout ? "standard output" : "output";
+  return out->target ? out->target : "standard output";
 }
 
 static int fail(const char *path, int number, bike_file_error *error) {
@@ -34,19 +33,17 @@ static void release(bike_output *out) {
   *out = (bike_output){0};
 }
 
-// Gives `out` the next free name beside its target.
-static int next_temporary(bike_output *out) {
+// The next name beside the target, to be freed; NULL when out of memory.
+static char *next_name(const bike_output *out) {
   static atomic_uint counter;
   const char *slash = strrchr(out->target, '/');
   const char *base = slash ? slash + 1 : out->target;
   const int folder = (int)(base - out->target);
-  free(out->temporary);
-  if (asprintf(&out->temporary, "%.*s.%s.%ld-%u.tmp", folder, out->target, base, (long)getpid(),
-               atomic_fetch_add(&counter, 1U)) < 0) {
-    out->temporary = NULL;
-    return ENOMEM;
-  }
-  return 0;
+  char *name = NULL;
+  if (asprintf(&name, "%.*s.%s.%ld-%u.tmp", folder, out->target, base, (long)getpid(),
+               atomic_fetch_add(&counter, 1U)) < 0)
+    return NULL;
+  return name;
 }
 
 // A file without a name in the target's folder, or -1 where that does not exist.
@@ -61,11 +58,17 @@ static int open_nameless(const bike_output *out) {
 
 static int open_named(bike_output *out) {
   for (int i = 0; i < NAME_ATTEMPTS; ++i) {
-    errno = next_temporary(out);
-    if (errno) return -1;
-    const int descriptor = open(out->temporary, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    out->named = descriptor >= 0;
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+    char *name = next_name(out);
+    errno = ENOMEM;
+    const int descriptor = name ? open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    if (descriptor >= 0) {
+      out->temporary = name;
+      return descriptor;
+    }
+    const int number = errno;
+    free(name);
+    errno = number;
+    if (number != EEXIST) return -1;
   }
   return -1;
 }
@@ -88,6 +91,15 @@ static int open_aside(bike_output *out, const struct stat *old) {
   return number;
 }
 
+// Opens a device or a pipe. Returns 0 or errno.
+static int open_direct(bike_output *out, const char *path) {
+  out->direct = true;
+  out->target = strdup(path);
+  if (!out->target) return ENOMEM;
+  out->stream = fopen(path, "we");
+  return out->stream ? 0 : errno;
+}
+
 // Opens what `path` names. Returns 0 or errno.
 static int open_target(bike_output *out, const char *path) {
   struct stat status;
@@ -99,10 +111,7 @@ static int open_target(bike_output *out, const char *path) {
     return out->target ? open_aside(out, NULL) : ENOMEM;
   }
   if (S_ISDIR(status.st_mode)) return EISDIR;
-  if (!S_ISREG(status.st_mode)) {
-    out->stream = fopen(path, "we");
-    return out->stream ? 0 : errno;
-  }
+  if (!S_ISREG(status.st_mode)) return open_direct(out, path);
   // rename alone would replace a read-only file
   if (faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) return errno;
   out->target = realpath(path, NULL);
@@ -113,6 +122,7 @@ int bike_output_begin(bike_output *out, const char *path, bike_file_error *error
   *out = (bike_output){0};
   if (!path || strcmp(path, "-") == 0) {
     out->stream = stdout;
+    out->direct = true;
     return BIKE_OK;
   }
   const int number = open_target(out, path);
@@ -127,33 +137,37 @@ static int link_temporary(bike_output *out) {
   char descriptor[DESCRIPTOR_PATH_SIZE];
   snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", fileno(out->stream));
   for (int i = 0; i < NAME_ATTEMPTS; ++i) {
-    const int number = next_temporary(out);
-    if (number) return number;
-    if (linkat(AT_FDCWD, descriptor, AT_FDCWD, out->temporary, AT_SYMLINK_FOLLOW) == 0) {
-      out->named = true;
+    char *name = next_name(out);
+    if (!name) return ENOMEM;
+    if (linkat(AT_FDCWD, descriptor, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0) {
+      out->temporary = name;
       return 0;
     }
-    if (errno != EEXIST) return errno;
+    const int number = errno;
+    free(name);
+    if (number != EEXIST) return number;
   }
   return EEXIST;
 }
 
-// Everything to the file system. A failed write that came earlier has lost its errno: report EIO.
+// Everything to the file system. A failed write that came earlier has lost its errno: what lasts,
+// as a full disk does, stops one more byte too and is named; the rest is EIO.
 static int flush(FILE *stream) {
   const bool failed = ferror(stream) != 0;
   if (fflush(stream) != 0) return errno;
-  return failed ? EIO : 0;
+  if (!failed) return 0;
+  return fputc('\n', stream) == EOF || fflush(stream) != 0 ? errno : EIO;
 }
 
 // Flushes, names and closes the stream. Returns 0 or errno.
 static int finish(bike_output *out) {
   int number = flush(out->stream);
-  if (!number && out->target && !out->named) number = link_temporary(out);
+  if (!number && !out->direct && !out->temporary) number = link_temporary(out);
   if (out->stream != stdout) {
     if (fclose(out->stream) != 0 && !number) number = errno;
     out->stream = NULL;
   }
-  if (!number && out->target && rename(out->temporary, out->target) != 0) number = errno;
+  if (!number && !out->direct && rename(out->temporary, out->target) != 0) number = errno;
   return number;
 }
 
@@ -171,6 +185,6 @@ int bike_output_commit(bike_output *out, bike_file_error *error) {
 
 void bike_output_abort(bike_output *out) {
   if (out->stream && out->stream != stdout) fclose(out->stream);
-  if (out->named) unlink(out->temporary);
+  if (out->temporary) unlink(out->temporary);
   release(out);
 }

@@ -101,8 +101,18 @@ static void drop_byte_order_mark(bike_text *text) {
   memmove(text->data, text->data + length, text->size + 1);
 }
 
+// To open a named pipe is to wait for somebody who writes there, perhaps forever. Pipes that the
+// shell has opened already are files of /dev: /dev/stdin, /dev/fd/63.
+static bool is_named_pipe(const char *path) {
+  struct stat status;
+  return strncmp(path, "/dev/", 5) != 0 && stat(path, &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
 int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_error *error) {
   *out = (bike_text){0};
+  if (is_named_pipe(path))
+    return bike_message(error, BIKE_ERROR_FILE,
+                        "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
   FILE *stream = fopen(path, "re");
   if (!stream) return system_error(path, errno, error);
   struct stat status;

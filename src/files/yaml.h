@@ -80,7 +80,8 @@ int bike_yaml_expect_list(const bike_yaml *yaml, const bike_field *field);
 bool bike_yaml_is_mapping(const bike_field *field);
 bool bike_yaml_is_null(const bike_field *field);
 bool bike_yaml_is_empty_text(const bike_field *field); // '' or ""
-bool bike_yaml_is_plain(const bike_field *field, const char *word);
+bool bike_yaml_is_plain(const bike_field *field, const char *word); // without quotes
+bool bike_yaml_is_text(const bike_field *field, const char *word);  // with or without
 
 // Readers for lists of keys.
 bike_value_reader bike_yaml_number;       // double: finite

@@ -22,10 +22,14 @@ static bool is_unquoted(const bike_field *field) {
   return fy_node_get_style(field->value) == FYNS_PLAIN;
 }
 
-bool bike_yaml_is_plain(const bike_field *field, const char *word) {
+bool bike_yaml_is_text(const bike_field *field, const char *word) {
   size_t length;
   const char *text = scalar(field, &length);
-  return text && is_unquoted(field) && length == strlen(word) && memcmp(text, word, length) == 0;
+  return text && length == strlen(word) && memcmp(text, word, length) == 0;
+}
+
+bool bike_yaml_is_plain(const bike_field *field, const char *word) {
+  return bike_yaml_is_text(field, word) && is_unquoted(field);
 }
 
 static bool is_one_of(const bike_field *field, const char *const words[3]) {

@@ -170,24 +170,18 @@ static int rising(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-// Eigenvalues that grow, and those that neither grow nor decay, at a speed.
+// What the eigenvalues at a speed do.
 typedef struct census {
-  int growing, neutral;
+  int growing;
+  bool all_decay;
 } census;
 
 static int count_eigenvalues(census *out, const bike_model *model, double speed) {
   bike_eigenvalues e;
   int code = bike_upright_eigenvalues(&e, model, speed);
   if (code) return code;
-  double largest = 0;
-  for (int i = 0; i < 4; i++) largest = fmax(largest, hypot(e.re[i], e.im[i]));
-  // a double eigenvalue zero splits by the root of the rounding of A
-  const double neutral = 1e-7 * largest;
-  *out = (census){0};
-  for (int i = 0; i < 4; i++) {
-    out->growing += e.re[i] > neutral;
-    out->neutral += fabs(e.re[i]) <= neutral;
-  }
+  *out = (census){.all_decay = bike_all_decay(&e)};
+  for (int i = 0; i < 4; i++) out->growing += e.re[i] > bike_neutral_band(&e);
   return BIKE_OK;
 }
 
@@ -207,8 +201,8 @@ static void add_speed(bike_critical_speeds *out, candidate c) {
     out->capsize[out->capsize_count++] = c.v;
 }
 
-// Walks along the segments between candidates; those across which the census changes count. A
-// range is stable where every eigenvalue decays: a neutral one does not.
+// Walks along the segments between candidates; those across which the number of growing ones
+// changes count.
 static int classify(bike_critical_speeds *out, const candidates *c, const bike_model *model,
                     double low, double high) {
   census before = {0};
@@ -220,7 +214,7 @@ static int classify(bike_critical_speeds *out, const candidates *c, const bike_m
     int code = count_eigenvalues(&now, model, 0.5 * (from + to));
     if (code) return code;
     if (!first && now.growing != before.growing) add_speed(out, c->at[i - 1]);
-    if (now.growing == 0 && now.neutral == 0) add_range(out, from, to);
+    if (now.all_decay) add_range(out, from, to);
     before = now;
     first = false;
   }

@@ -168,11 +168,10 @@ static int pass_events(ride *r, double t, const ride_indicators *then) {
 
 static int emit(ride *r, const bike_snapshot *view) {
   if (r->now.t < row_time(r)) return BIKE_OK;
-  bike_sample sample;
   bike_sample_more more;
-  ride_describe(&sample, &more, &r->now, view);
+  ride_describe(&r->out->end, &more, &r->now, view);
   r->row++;
-  return r->def->on_sample(&sample, &more, r->def->user) ? BIKE_ERROR_INTERRUPTED : BIKE_OK;
+  return r->def->on_sample(&r->out->end, &more, r->def->user) ? BIKE_ERROR_INTERRUPTED : BIKE_OK;
 }
 
 // What happens at one instant: at the start, or because the input jumps.
@@ -237,6 +236,13 @@ static int advance(ride *r) {
   return emit(r, &view);
 }
 
+// The end may lie between rows. A look at it that fails leaves the last row.
+static void describe_end(ride *r) {
+  bike_snapshot view;
+  bike_sample_more more;
+  if (!ride_look(&view, &r->now, &r->flow)) ride_describe(&r->out->end, &more, &r->now, &view);
+}
+
 static int run(ride *r) {
   int code = enter_stretch(r);
   while (!code && !r->over && r->now.t < r->finish) code = advance(r);
@@ -280,6 +286,7 @@ int bike_ride(bike_ride_result *out, const bike_model *model, const bike_ride_de
   if (code) return code;
   code = run(&r);
   r.method->free(r.integrator);
+  if (!code) describe_end(&r);
   out->end_time = out->complete ? def->duration : r.now.t;
   out->evaluations = r.flow.evaluations;
   return code;

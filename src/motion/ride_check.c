@@ -44,22 +44,31 @@ static bool breakpoints_rise(const bike_ride_def *def) {
   return true;
 }
 
-// A billion rows a ride: beyond, neighbouring times drown in the rounding of the time.
-static bool times_ok(const bike_ride_def *def) {
-  return positive(def->duration) && positive(def->sample) &&
-         def->duration / def->sample >= 1 - RATIO_SLACK && def->duration / def->sample <= 1e9;
+static const char *wrong_times(const bike_ride_def *def) {
+  if (!positive(def->duration)) return "duration must be positive";
+  if (!positive(def->sample)) return "sample must be positive";
+  if (!(def->duration / def->sample >= 1 - RATIO_SLACK))
+    return "sample must not be longer than duration";
+  // Beyond, neighbouring times drown in the rounding of the time.
+  if (!(def->duration / def->sample <= 1e9))
+    return "sample must be at least a billionth of the duration";
+  return NULL;
 }
 
-static bool method_ok(const bike_ride_def *def) {
+static const char *wrong_method(const bike_ride_def *def) {
   switch (def->method) {
   case BIKE_METHOD_RK8:
   case BIKE_METHOD_ADAMS:
     // No step can be more accurate than rounding lets it be.
-    return isfinite(def->rtol) && def->rtol >= 4 * DBL_EPSILON && positive(def->atol);
+    if (!(isfinite(def->rtol) && def->rtol >= 4 * DBL_EPSILON))
+      return "rtol must be at least 8.9e-16";
+    return positive(def->atol) ? NULL : "atol must be positive";
   case BIKE_METHOD_RK4:
-    return positive(def->step) && divides(def->step, def->sample);
+    if (!positive(def->step)) return "step must be positive";
+    return divides(def->step, def->sample) ? NULL
+                                           : "step must divide sample, the time between rows";
   }
-  return false;
+  return "method is none of them";
 }
 
 static bool finite_start(const bike_state *s) {
@@ -67,9 +76,17 @@ static bool finite_start(const bike_state *s) {
          isfinite(s->steer_rate) && isfinite(s->speed);
 }
 
+const char *bike_ride_broken_rule(const bike_ride_def *def) {
+  const char *wrong = wrong_times(def);
+  if (!wrong) wrong = wrong_method(def);
+  if (wrong) return wrong;
+  if (!(def->lean_limit > 0 && def->lean_limit <= 1.5707963267948966)) // pi/2
+    return "lean_limit must lie in 0 to 90 deg";
+  if (!breakpoints_rise(def)) return "breakpoints must be finite and rise";
+  return def->on_sample ? NULL : "on_sample is missing";
+}
+
 int ride_check(const bike_ride_def *def) {
-  bool limit_ok = def->lean_limit > 0 && def->lean_limit <= 1.5707963267948966; // pi/2
-  if (!def->on_sample || !times_ok(def) || !method_ok(def) || !limit_ok || !breakpoints_rise(def))
-    return BIKE_ERROR_ARGUMENT;
+  if (bike_ride_broken_rule(def)) return BIKE_ERROR_ARGUMENT;
   return finite_start(&def->start) ? BIKE_OK : BIKE_ERROR_NOT_FINITE;
 }

@@ -38,3 +38,16 @@ int bike_upright_eigenvalues(bike_eigenvalues *out, const bike_model *model, dou
   int code = bike_linearize(&linear, model, &straight, NULL);
   return code ? code : bike_eigenvalues_of(out, linear.A);
 }
+
+double bike_neutral_band(const bike_eigenvalues *e) {
+  double largest = 0;
+  for (int i = 0; i < 4; i++) largest = fmax(largest, hypot(e->re[i], e->im[i]));
+  return 1e-11 * largest;
+}
+
+bool bike_all_decay(const bike_eigenvalues *e) {
+  double band = bike_neutral_band(e);
+  for (int i = 0; i < 4; i++)
+    if (!(e->re[i] < -band)) return false;
+  return true;
+}

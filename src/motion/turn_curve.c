@@ -2,28 +2,16 @@
 #include "motion/turn_curve.h"
 
 #include <bicycle/error.h>
-#include <bicycle/state.h>
 #include <math.h>
-#include <string.h>
 
-int turn_curve_init(turn_curve *out, const bike_model *model, const bike_turn_def *def,
-                    bool at_speed) {
-  *out = (turn_curve){.bicycle = turn_bicycle_of(model),
-                      .at_speed = at_speed,
-                      .torque = def->steer_torque,
-                      .def = def};
+turn_curve turn_curve_of(const turn_bicycle *bicycle, const bike_turn_def *def, bool at_speed) {
+  turn_curve c = {.bicycle = bicycle, .def = def, .at_speed = at_speed};
   double speed = def->value[BIKE_TURN_SPEED];
   if (at_speed)
-    out->square = speed * speed;
+    c.square = speed * speed;
   else if (def->given[BIKE_TURN_OFFSET])
-    out->offset = def->value[BIKE_TURN_OFFSET];
-  bike_state standing = {0};
-  double mass[9];
-  int code = bike_mass_matrix(mass, model, &standing, 0);
-  if (code) return code;
-  out->per_inertia[TURN_LEAN_ROW] = 1 / mass[0];
-  out->per_inertia[TURN_STEER_ROW] = 1 / mass[4];
-  return BIKE_OK;
+    c.offset = def->value[BIKE_TURN_OFFSET];
+  return c;
 }
 
 double turn_curve_offset(const turn_curve *c, const double y[Y_SIZE]) {
@@ -32,36 +20,32 @@ double turn_curve_offset(const turn_curve *c, const double y[Y_SIZE]) {
 
 // v^2 sin(steer)
 static double swept(const turn_curve *c, const double y[Y_SIZE]) {
-  return c->at_speed ? c->square * sin(y[Y_STEER]) : c->bicycle.model->gravity * y[Y_LAST];
+  return c->at_speed ? c->square * sin(y[Y_STEER]) : c->bicycle->model->gravity * y[Y_LAST];
 }
 
 double turn_curve_square(const turn_curve *c, const double y[Y_SIZE]) {
   return c->at_speed ? c->square : swept(c, y) / sin(y[Y_STEER]);
 }
 
-// f = fall + v^2 sin(steer) sweep + (M_S, 0)
+// f = fall + v^2 sin(steer) sweep
 int turn_curve_equations(double f[TURN_ROWS], double J[TURN_ROWS][Y_SIZE], const turn_curve *c,
                          const double y[Y_SIZE]) {
   double offset = turn_curve_offset(c, y), s = swept(c, y);
   turn_forces at;
-  int code = turn_forces_at(&at, &c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
+  int code = turn_forces_at(&at, c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
   if (code) return code;
-  for (int i = 0; i < TURN_ROWS; i++) {
-    double torque = i == TURN_STEER_ROW ? c->torque : 0;
-    f[i] = (at.fall[i] + s * at.sweep[i] + torque) * c->per_inertia[i];
-  }
+  for (int i = 0; i < TURN_ROWS; i++) f[i] = at.fall[i] + s * at.sweep[i];
   if (!J) return BIKE_OK;
 
-  turn_slopes d;
-  code = turn_slopes_at(&d, &c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
+  turn_slopes d = {.wanted = {true, true, c->at_speed}};
+  code = c->at_speed
+             ? turn_slopes_at_speed(&d, c->bicycle, y[Y_LEAN], y[Y_STEER], offset, c->square)
+             : turn_slopes_at_swept(&d, c->bicycle, y[Y_LEAN], y[Y_STEER], offset, s);
   if (code) return code;
-  double of_steer = c->at_speed ? c->square * cos(y[Y_STEER]) : 0;
   for (int i = 0; i < TURN_ROWS; i++) {
-    J[i][Y_LEAN] = d.lean.fall[i] + s * d.lean.sweep[i];
-    J[i][Y_STEER] = d.steer.fall[i] + s * d.steer.sweep[i] + of_steer * at.sweep[i];
-    J[i][Y_LAST] = c->at_speed ? d.offset.fall[i] + s * d.offset.sweep[i]
-                               : c->bicycle.model->gravity * at.sweep[i];
-    for (int j = 0; j < Y_SIZE; j++) J[i][j] *= c->per_inertia[i];
+    J[i][Y_LEAN] = d.of[i][BY_LEAN];
+    J[i][Y_STEER] = d.of[i][BY_STEER];
+    J[i][Y_LAST] = c->at_speed ? d.of[i][BY_OFFSET] : c->bicycle->model->gravity * at.sweep[i];
   }
   return BIKE_OK;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A curve of stationary motions, at a fixed speed or a fixed rider offset, in coordinates in which
 // it is smooth everywhere, straight riding included:
-//   y = (lean, steer, z),  z = rider offset at a fixed speed, z = v^2 sin(steer)/g at a fixed offset
+//   y = (lean, steer, z),  z = rider offset at a fixed speed, z = v^2 sin(steer)/g at a fixed
+//   offset
 #ifndef BICYCLE_MOTION_TURN_CURVE_H
 #define BICYCLE_MOTION_TURN_CURVE_H
 
@@ -13,12 +14,10 @@
 enum { Y_LEAN, Y_STEER, Y_LAST, Y_SIZE };
 
 typedef struct turn_curve {
-  turn_bicycle bicycle;
-  bool at_speed;          // fixed speed, else fixed rider offset
-  double square, offset;  // v^2, w: the one that is fixed
-  double torque;          // M_S
-  double per_inertia[TURN_ROWS]; // turns forces into accelerations of upright riding, 1/(kg m^2)
-  const bike_turn_def *def;      // limits
+  const turn_bicycle *bicycle;
+  const bike_turn_def *def; // limits
+  bool at_speed;            // fixed speed, else fixed rider offset
+  double square, offset;    // v^2, w: the one that is fixed
 } turn_curve;
 
 // A place on it, or near it.
@@ -27,8 +26,9 @@ typedef struct turn_point {
   double along[Y_SIZE]; // unit tangent
 } turn_point;
 
-int turn_curve_init(turn_curve *out, const bike_model *model, const bike_turn_def *def,
-                    bool at_speed);
+// The curve of what is given: of the speed if `at_speed`, else of the rider offset (0 if not
+// given).
+turn_curve turn_curve_of(const turn_bicycle *bicycle, const bike_turn_def *def, bool at_speed);
 
 // Residuals, rad/s^2, and their derivatives (may be NULL) for y. A geometry error, or 0.
 int turn_curve_equations(double f[TURN_ROWS], double J[TURN_ROWS][Y_SIZE], const turn_curve *curve,
@@ -52,8 +52,7 @@ double turn_curve_offset(const turn_curve *curve, const double y[Y_SIZE]);
 // are where it is largest or smallest.
 double turn_curve_beyond(const turn_curve *curve, const turn_point *at, bike_turn_variable variable,
                          double value);
-double turn_curve_slope(const turn_curve *curve, const turn_point *at,
-                        bike_turn_variable variable);
+double turn_curve_slope(const turn_curve *curve, const turn_point *at, bike_turn_variable variable);
 
 // Whether lean and steer lie within the limits.
 bool turn_curve_within(const turn_curve *curve, const double y[Y_SIZE]);

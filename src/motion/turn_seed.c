@@ -21,20 +21,18 @@ typedef struct turn_node {
 
 static const turn_node NOWHERE = {{NAN, NAN}, {NAN, NAN}};
 
-// fall + s sweep = 0 for s: crossed rows, then the least squares, in inertia's measure.
+// fall + s sweep = 0: the rows crossed, and s of least squares.
 static turn_node without_speed(const turn_curve *c, double lean, double steer) {
   turn_forces f;
-  if (turn_forces_at(&f, &c->bicycle, lean, steer, c->offset)) return NOWHERE;
-  f.fall[TURN_STEER_ROW] += c->torque;
+  if (turn_forces_at(&f, c->bicycle, lean, steer, c->offset)) return NOWHERE;
   double dot = 0, square = 0;
   for (int i = 0; i < TURN_ROWS; i++) {
-    double fall = f.fall[i] * c->per_inertia[i], sweep = f.sweep[i] * c->per_inertia[i];
-    dot += fall * sweep;
-    square += sweep * sweep;
+    dot += f.fall[i] * f.sweep[i];
+    square += f.sweep[i] * f.sweep[i];
   }
   turn_node node = NOWHERE;
   node.value[0] = f.fall[0] * f.sweep[1] - f.fall[1] * f.sweep[0];
-  node.last[0] = -dot / square / c->bicycle.model->gravity;
+  node.last[0] = -dot / square / c->bicycle->model->gravity;
   return node;
 }
 
@@ -43,9 +41,8 @@ static int in_offset(double out[TURN_ROWS][3], const turn_curve *c, double lean,
   double s = c->square * sin(steer), total[3][TURN_ROWS];
   for (int k = 0; k < 3; k++) {
     turn_forces f;
-    int code = turn_forces_at(&f, &c->bicycle, lean, steer, k - 1);
+    int code = turn_forces_at(&f, c->bicycle, lean, steer, k - 1);
     if (code) return code;
-    f.fall[TURN_STEER_ROW] += c->torque;
     for (int i = 0; i < TURN_ROWS; i++) total[k][i] = f.fall[i] + s * f.sweep[i];
   }
   for (int i = 0; i < TURN_ROWS; i++) {
@@ -129,33 +126,49 @@ static int seed_on_edge(turn_seeds *out, const turn_curve *c, turn_corner a, tur
 static int seeds_on_edge(turn_seeds *out, const turn_curve *c, turn_corner a, turn_corner b) {
   int code = BIKE_OK;
   for (int sheet = 0; sheet < SHEETS && !code; sheet++)
-    if (crosses(a.node.value[sheet], b.node.value[sheet]))
-      code = seed_on_edge(out, c, a, b, sheet);
+    if (crosses(a.node.value[sheet], b.node.value[sheet])) code = seed_on_edge(out, c, a, b, sheet);
   return code;
 }
 
-// Nodes lie symmetrically to zero, none on it: symmetric bicycles have a zero at upright.
-static int node_count(double limit) {
-  return 2 * (int)ceil(limit / MESH);
+// Places of the lines of a grid: symmetric to zero, none on it (symmetric bicycles have a zero at
+// upright), the outermost at the limits. Meshes shrink within `fine` of zero.
+typedef struct turn_lines {
+  int count;
+  double *at;
+} turn_lines;
+
+static double mesh_at(double place, double fine) {
+  return MESH * fmin(1, hypot(fine, place));
 }
 
-static double node_place(int i, int count, double limit) {
-  return limit * ((2 * i + 1.0) / count - 1);
+static int lines_init(turn_lines *out, double limit, double fine) {
+  int half = 1;
+  for (double place = 0.5 * mesh_at(0, fine); place < limit; half++) place += mesh_at(place, fine);
+  *out = (turn_lines){2 * half, calloc(2 * (size_t)half, sizeof(double))};
+  if (!out->at) return BIKE_ERROR_MEMORY;
+  double place = 0.5 * mesh_at(0, fine);
+  for (int i = 0; i < half; i++) {
+    out->at[half + i] = fmin(place, limit);
+    out->at[half - 1 - i] = -out->at[half + i];
+    place += mesh_at(place, fine);
+  }
+  return BIKE_OK;
 }
 
-static void fill_row(turn_corner *row, int count, const turn_curve *c, double lean) {
-  for (int j = 0; j < count; j++) {
-    row[j] = (turn_corner){.lean = lean, .steer = node_place(j, count, c->def->steer_limit)};
+static void fill_row(turn_corner *row, const turn_lines *steer, const turn_curve *c, double lean) {
+  for (int j = 0; j < steer->count; j++) {
+    row[j] = (turn_corner){.lean = lean, .steer = steer->at[j]};
     row[j].node = node_at(c, lean, row[j].steer);
   }
 }
 
-static int scan(turn_seeds *out, const turn_curve *c, turn_corner *before, turn_corner *row,
-                int columns) {
-  int rows = node_count(c->def->lean_limit), code = BIKE_OK;
-  for (int i = 0; i < rows && !code; i++) {
-    fill_row(row, columns, c, node_place(i, rows, c->def->lean_limit));
-    for (int j = 0; j < columns && !code; j++) {
+static int scan(turn_seeds *out, const turn_curve *c, const turn_lines *lean,
+                const turn_lines *steer, turn_corner *corners) {
+  turn_corner *before = corners, *row = corners + steer->count;
+  int code = BIKE_OK;
+  for (int i = 0; i < lean->count && !code; i++) {
+    fill_row(row, steer, c, lean->at[i]);
+    for (int j = 0; j < steer->count && !code; j++) {
       if (j > 0) code = seeds_on_edge(out, c, row[j - 1], row[j]);
       if (i > 0 && !code) code = seeds_on_edge(out, c, before[j], row[j]);
     }
@@ -166,13 +179,33 @@ static int scan(turn_seeds *out, const turn_curve *c, turn_corner *before, turn_
   return code;
 }
 
-int turn_seeds_find(turn_seeds *out, const turn_curve *curve) {
+static double from_upright(const double y[Y_SIZE]) {
+  return hypot(y[Y_LEAN], y[Y_STEER]);
+}
+
+static int outwards(const void *a, const void *b) {
+  double x = from_upright(a), y = from_upright(b);
+  return (x > y) - (x < y);
+}
+
+// Steer that takes a bicycle of some 1 m wheelbase round a circle at 1 g: at high speed everything
+// happens within it.
+static double fine_steer(const turn_curve *c) {
+  double speed = c->def->speed_limit, square = c->at_speed ? c->square : speed * speed;
+  return c->bicycle->model->gravity / fmax(square, c->bicycle->model->gravity);
+}
+
+int turn_seeds_find(turn_seeds *out, const turn_curve *c) {
   *out = (turn_seeds){0};
-  int columns = node_count(curve->def->steer_limit);
-  turn_corner *corners = calloc(2 * (size_t)columns, sizeof *corners);
-  if (!corners) return BIKE_ERROR_MEMORY;
-  int code = scan(out, curve, corners, corners + columns, columns);
+  turn_lines lean = {0}, steer = {0};
+  int code = lines_init(&lean, c->def->lean_limit, 1);
+  if (!code) code = lines_init(&steer, c->def->steer_limit, fine_steer(c));
+  turn_corner *corners = code ? NULL : calloc(2 * (size_t)steer.count, sizeof *corners);
+  if (!code) code = corners ? scan(out, c, &lean, &steer, corners) : BIKE_ERROR_MEMORY;
   free(corners);
+  free(lean.at);
+  free(steer.at);
+  if (out->count > 0) qsort(out->y, out->count, sizeof out->y[0], outwards);
   return code;
 }
 

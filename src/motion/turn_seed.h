@@ -9,7 +9,7 @@
 
 typedef struct turn_seeds {
   size_t count, room;
-  double (*y)[Y_SIZE]; // near the curve, to 1e-6 rad
+  double (*y)[Y_SIZE]; // near the curve, to 1e-6 rad; the nearest to upright riding first
 } turn_seeds;
 
 // To be released also on error (MEMORY).

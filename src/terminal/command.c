@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { KEY_JSON = TERM_KEY_SHARED, KEY_CONVENTION, KEY_VERSION };
 
@@ -89,6 +90,27 @@ void term_take_argument(const char **out, const char *text, const char *what) {
   *out = text;
 }
 
+bool term_ends_with(const char *text, const char *end) {
+  size_t length = strlen(text), tail = strlen(end);
+  return length > tail && strcmp(text + length - tail, end) == 0;
+}
+
+static error_t parse_file(int key, char *text, struct argp_state *state) {
+  const char **file = state->input;
+  switch (key) {
+  case ARGP_KEY_ARG:
+    term_take_argument(file, text, "FILE");
+    return 0;
+  case ARGP_KEY_END:
+    if (!*file) term_usage("the bicycle's FILE is missing");
+    return 0;
+  default:
+    return ARGP_ERR_UNKNOWN;
+  }
+}
+
+const struct argp term_file_argp = {.parser = parse_file};
+
 static error_t parse_show(int key, char *text, struct argp_state *state) {
   term_show *show = state->input;
   switch (key) {
@@ -114,3 +136,17 @@ static const struct argp_option show_options[] = {
 };
 
 const struct argp term_show_argp = {.options = show_options, .parser = parse_show};
+
+static error_t parse_question(int key, char *text, struct argp_state *state) {
+  (void)text;
+  term_question *question = state->input;
+  if (key != ARGP_KEY_INIT) return ARGP_ERR_UNKNOWN;
+  state->child_inputs[0] = &question->file;
+  state->child_inputs[1] = &question->show;
+  return 0;
+}
+
+static const struct argp_child question_children[] = {
+    {&term_file_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
+
+const struct argp term_question_argp = {.parser = parse_question, .children = question_children};

@@ -39,6 +39,12 @@ double term_angle_of(const char *option, const char *text);
 // Keeps the one positional argument of a command, called `what` in messages, as in "FILE".
 void term_take_argument(const char **out, const char *text, const char *what);
 
+// Whether a text ends in another and has something before it: a file's name and its kind.
+bool term_ends_with(const char *text, const char *end);
+
+// The bicycle's FILE, required: a child parser whose input is a `const char *` that is NULL.
+extern const struct argp term_file_argp;
+
 // How results are shown: --json and --convention, a child parser for commands that take both.
 // Its input is a term_show.
 typedef struct term_show {
@@ -47,5 +53,14 @@ typedef struct term_show {
 } term_show;
 
 extern const struct argp term_show_argp;
+
+// A question about a bicycle: FILE, --json and --convention. A child parser for commands that take
+// them; its input is a term_question.
+typedef struct term_question {
+  const char *file;
+  term_show show;
+} term_question;
+
+extern const struct argp term_question_argp;
 
 #endif

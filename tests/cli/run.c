@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <ftw.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,27 @@ void run_enter(void) {
 
 void run_leave(void) {
   assert_int_equal(nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS), 0);
+}
+
+int run_enter_group(void **state) {
+  (void)state;
+  run_enter();
+  return 0;
+}
+
+int run_enter_filled(const char *command) {
+  run_enter();
+  run_result made = run_command(command);
+  if (made.status != 0) print_error("%s: %s\n", command, made.err);
+  int status = made.status;
+  run_free(&made);
+  return status;
+}
+
+int run_leave_group(void **state) {
+  (void)state;
+  run_leave();
+  return 0;
 }
 
 const char *run_folder(void) {
@@ -90,6 +112,34 @@ char *run_list(void) {
   free(entries);
   fclose(list);
   return text;
+}
+
+static int count_lines(const char *text) {
+  int lines = 0;
+  for (; *text; text++) lines += *text == '\n';
+  return lines;
+}
+
+static bool is_refused(const run_wrong *wrong, const char *files) {
+  run_result result = run_command(wrong->command);
+  char *after = run_list();
+  bool right = result.status == 2 && count_lines(result.err) == 1 && !*result.out &&
+               strncmp(result.err, "bicycle", strlen("bicycle")) == 0 &&
+               strstr(result.err, wrong->says) && strcmp(files, after) == 0;
+  if (!right)
+    print_error("%s\n  exit %d, must be 2; must say: %s\n  out: %s\n  err: %s\n  files: %s\n",
+                wrong->command, result.status, wrong->says, result.out, result.err, after);
+  free(after);
+  run_free(&result);
+  return right;
+}
+
+void run_all_wrong(const run_wrong *commands, size_t count) {
+  char *files = run_list();
+  int failures = 0;
+  for (size_t i = 0; i < count; i++) failures += !is_refused(&commands[i], files);
+  free(files);
+  assert_int_equal(failures, 0);
 }
 
 json_t *run_json(const char *command) {

@@ -4,6 +4,7 @@
 #define BICYCLE_TESTS_CLI_RUN_H
 
 #include <jansson.h>
+#include <stddef.h>
 
 // What a command answered. Free it with run_free.
 typedef struct run_result {
@@ -15,11 +16,28 @@ typedef struct run_result {
 // be made.
 void run_enter(void);
 void run_leave(void);
+
+// The same as fixtures of a group of tests: an empty folder, or one that a shell command fills, and
+// its end.
+int run_enter_group(void **state);
+int run_enter_filled(const char *command);
+int run_leave_group(void **state);
+
 const char *run_folder(void);
 
 // Runs a shell command there; BUILD/bin heads PATH.
 run_result run_command(const char *command);
 void run_free(run_result *result);
+
+// A command line that is wrong, and what its message must hold.
+typedef struct run_wrong {
+  const char *command;
+  const char *says;
+} run_wrong;
+
+// Runs every one of them; fails the test unless each ends with 2 and one line on stderr that says
+// so, prints nothing else, and leaves the folder as it was.
+void run_all_wrong(const run_wrong *commands, size_t count);
 
 // Names in the folder, sorted, each followed by a line feed; free it.
 char *run_list(void);

@@ -17,22 +17,12 @@ static void expect(const char *command, int status, const char *out, const char 
 // A copy of the program with neighbours of the test's own.
 static int enter(void **state) {
   (void)state;
-  run_enter();
-  run_result made = run_command(
+  return run_enter_filled(
       "mkdir bin && cp \"$(command -v bicycle)\" bin && "
       "printf '#!/bin/sh\\necho \"hello: $*\"\\nexit 3\\n' > bin/bicycle-hello && "
       "chmod +x bin/bicycle-hello && : > bin/bicycle-plain && mkdir -p elsewhere/bin && "
       "printf '#!/bin/sh\\necho wrong one\\n' > elsewhere/bicycle-far && "
       "chmod +x elsewhere/bicycle-far");
-  int status = made.status;
-  run_free(&made);
-  return status;
-}
-
-static int leave(void **state) {
-  (void)state;
-  run_leave();
-  return 0;
 }
 
 static void a_neighbour_runs_with_its_arguments_and_status(void **state) {
@@ -65,5 +55,5 @@ int main(void) {
       cmocka_unit_test(a_slash_is_refused),
       cmocka_unit_test(what_cannot_run_is_named),
   };
-  return cmocka_run_group_tests(tests, enter, leave);
+  return cmocka_run_group_tests(tests, enter, run_leave_group);
 }

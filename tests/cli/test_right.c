@@ -344,18 +344,6 @@ static void help_starts_with_an_example(void **unused) {
   }
 }
 
-static int enter(void **state) {
-  (void)state;
-  run_enter();
-  return 0;
-}
-
-static int leave(void **state) {
-  (void)state;
-  run_leave();
-  return 0;
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(state_has_every_key),
@@ -375,5 +363,5 @@ int main(void) {
       cmocka_unit_test(draw_keeps_labels_apart),
       cmocka_unit_test(help_starts_with_an_example),
   };
-  return cmocka_run_group_tests(tests, enter, leave);
+  return cmocka_run_group_tests(tests, run_enter_group, run_leave_group);
 }

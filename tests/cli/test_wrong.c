@@ -4,20 +4,10 @@
 #include "run.h"
 #include "support/near.h"
 
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-typedef struct wrong {
-  const char *command;
-  const char *says; // must be in the line
-} wrong;
-
 // A start from which every option of `ride` but the wrong one is right.
 #define RIDE "bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o out.csv "
 
-static const wrong commands[] = {
+static const run_wrong commands[] = {
     // The program.
     {"bicycle", "command is missing"},
     {"bicycle nosuch", "'nosuch' is not a command"},
@@ -34,6 +24,7 @@ static const wrong commands[] = {
     {"bicycle state '' --speed 5", "bicycle state"},
     {"bicycle state benchmark roadster --speed 5", "'roadster'"},
     {"bicycle state empty.yml --speed 5", "empty.yml"},
+    {"timeout 10 bicycle state pipe.yml --speed 5", "pipe.yml: is a named pipe"},
     {"bicycle state \"$(printf 'a\\nb').yml\" --speed 5", "a?b.yml"},
     {"bicycle linear nosuch.yml --speed 5", "nosuch.yml"},
     {"bicycle stability nosuch.yml", "nosuch.yml"},
@@ -58,6 +49,7 @@ static const wrong commands[] = {
     {"bicycle state roadster", "--speed is missing"},
     {"bicycle linear roadster", "--speed is missing"},
     {"bicycle ride roadster --time 1 --sample 0.1 -o out.csv", "--speed is missing"},
+    {RIDE "--json -o -", "--json and -o - both mean the standard output"},
     {"bicycle ride roadster --speed 6 --sample 0.1 -o out.csv", "--time is missing"},
     {"bicycle ride roadster --speed 6 --time 1 -o out.csv", "--sample is missing"},
     {"bicycle state roadster --speed", "--speed"},
@@ -74,13 +66,15 @@ static const wrong commands[] = {
     {"bicycle ride roadster --speed 6 --time 0 --sample 0.1 -o out.csv", "--time: 0"},
     {"bicycle ride roadster --speed 6 --time 1 --sample 2 -o out.csv", "--sample 2 is longer"},
     {RIDE "--lean 90deg", "no geometry"},
+    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 --lean 90deg", "no geometry"},
     {RIDE "--method euler", "--method: 'euler'"},
     {RIDE "--rtol -1", "--rtol"},
-    {RIDE "--rtol 1e-30", "rtol"},
+    {RIDE "--rtol 1e-30", "ride: rtol must be at least 8.9e-16\n"},
     {RIDE "--atol 0", "--atol"},
     {RIDE "--step 0.01", "--step is for --method rk4"},
     {RIDE "--method rk4 --rtol 1e-9", "--rtol"},
-    {RIDE "--method rk4 --step 0.03", "step"},
+    {RIDE "--method rk4 --step 0.03", "ride: step must divide sample, the time between rows\n"},
+    {RIDE "--sample 1e-12", "ride: sample must be at least a billionth of the duration\n"},
     {RIDE "--lean-limit 91deg", "--lean-limit"},
     {RIDE "--stop-at wall", "--stop-at: 'wall'"},
     {RIDE "--steer-torque 1 --rider-offset 0.01", "exclude each other"},
@@ -97,10 +91,12 @@ static const wrong commands[] = {
     // Outputs.
     {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o folder", "folder"},
     {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o nosuch/out.csv", "nosuch/out.csv"},
-    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o /dev/full", "No space left"},
+    {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 -o /dev/full",
+     "/dev/full: No space left"},
     {"bicycle draw roadster -o folder", "folder"},
     {"bicycle draw roadster -o nosuch/x.svg", "nosuch/x.svg"},
-    {"bicycle draw roadster > /dev/full", "No space left"},
+    {"bicycle draw roadster -o /dev/full", "/dev/full: No space left"},
+    {"bicycle draw roadster > /dev/full", "standard output: No space left"},
     {"bicycle state roadster --speed 5 > /dev/full", "No space left"},
     {"bicycle state roadster --speed 5 --json > /dev/full", "No space left"},
     {"bicycle stability roadster > /dev/full", "No space left"},
@@ -108,34 +104,9 @@ static const wrong commands[] = {
     {"bicycle state --help > /dev/full", "No space left"},
 };
 
-static int count_lines(const char *text) {
-  int lines = 0;
-  for (; *text; text++) lines += *text == '\n';
-  return lines;
-}
-
-static bool check(const wrong *expected, const char *files) {
-  run_result result = run_command(expected->command);
-  char *after = run_list();
-  bool right = result.status == 2 && count_lines(result.err) == 1 && !*result.out &&
-               strncmp(result.err, "bicycle", strlen("bicycle")) == 0 &&
-               strstr(result.err, expected->says) && strcmp(files, after) == 0;
-  if (!right)
-    print_error("%s\n  exit %d, must be 2; must say: %s\n  out: %s\n  err: %s\n  files: %s\n",
-                expected->command, result.status, expected->says, result.out, result.err, after);
-  free(after);
-  run_free(&result);
-  return right;
-}
-
 static void every_wrong_command_is_refused(void **state) {
   (void)state;
-  char *files = run_list();
-  int failures = 0;
-  for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-    failures += !check(&commands[i], files);
-  free(files);
-  assert_int_equal(failures, 0);
+  run_all_wrong(commands, sizeof commands / sizeof commands[0]);
 }
 
 // A wrong command leaves what stood under the name of its output.
@@ -149,23 +120,13 @@ static void an_old_output_survives(void **state) {
 
 static int enter(void **state) {
   (void)state;
-  run_enter();
-  run_result made = run_command("mkdir folder && : > empty.yml && : > empty.csv &&"
-                                "printf 'time,rider_offset\\n0,0\\n1,0.01\\n' > input.csv &&"
-                                "printf 'time,steer_torque\\n0,0\\n1,x\\n' > broken.csv");
-  int status = made.status;
-  run_free(&made);
-  return status;
-}
-
-static int leave(void **state) {
-  (void)state;
-  run_leave();
-  return 0;
+  return run_enter_filled("mkdir folder && mkfifo pipe.yml && : > empty.yml && : > empty.csv &&"
+                          "printf 'time,rider_offset\\n0,0\\n1,0.01\\n' > input.csv &&"
+                          "printf 'time,steer_torque\\n0,0\\n1,x\\n' > broken.csv");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_wrong_command_is_refused),
                                      cmocka_unit_test(an_old_output_survives)};
-  return cmocka_run_group_tests(tests, enter, leave);
+  return cmocka_run_group_tests(tests, enter, run_leave_group);
 }

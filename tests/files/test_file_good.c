@@ -125,6 +125,14 @@ static void lateral_positions(void **state) {
 }
 
 // As BicycleParameters' own to_yaml writes it: empty texts, no rider.
+// Any JSON file is YAML: words may be quoted. Numbers may not (test_file_wrong.c).
+static void quoted_words(void **state) {
+  (void)state;
+  bike_file file = read_edited(SAMPLE_VALUES, "parameterization: Meijaard2007",
+                               "\"parameterization\": \"Meijaard2007\"");
+  check_benchmark(&file.bicycle);
+}
+
 static void empty_metadata(void **state) {
   (void)state;
   const bike_file file =
@@ -224,9 +232,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(meijaard_forms), cmocka_unit_test(uncertainties),
       cmocka_unit_test(unused_keys),    cmocka_unit_test(lateral_positions),
-      cmocka_unit_test(empty_metadata), cmocka_unit_test(shapes_of_text),
-      cmocka_unit_test(components),     cmocka_unit_test(hub_rounding),
-      cmocka_unit_test(shipped),
+      cmocka_unit_test(quoted_words),   cmocka_unit_test(empty_metadata),
+      cmocka_unit_test(shapes_of_text), cmocka_unit_test(components),
+      cmocka_unit_test(hub_rounding),   cmocka_unit_test(shipped),
   };
   return cmocka_run_group_tests(tests, scratch_create, scratch_remove);
 }

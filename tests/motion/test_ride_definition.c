@@ -131,6 +131,33 @@ static const struct {
     {infinite_speed, BIKE_ERROR_NOT_FINITE}, {nan_rate, BIKE_ERROR_NOT_FINITE},
 };
 
+static void the_broken_rule_is_named(void **state) {
+  (void)state;
+  static const struct {
+    change *change;
+    const char *says;
+  } rules[] = {{no_duration, "duration"},
+               {no_sample, "sample must be positive"},
+               {long_sample, "longer than"},
+               {tiny_sample, "billionth"},
+               {no_method, "method"},
+               {no_rtol, "rtol"},
+               {no_atol, "atol"},
+               {no_step, "step must be positive"},
+               {odd_step, "must divide"},
+               {far_limit, "lean_limit"},
+               {twice, "breakpoints"},
+               {no_sink, "on_sample"}};
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+    bike_ride_def def = good();
+    assert_null(bike_ride_broken_rule(&def));
+    rules[i].change(&def);
+    const char *rule = bike_ride_broken_rule(&def);
+    if (!rule || !strstr(rule, rules[i].says))
+      fail_msg("'%s' does not say '%s'", rule ? rule : "nothing", rules[i].says);
+  }
+}
+
 static void wrong_definitions_are_refused(void **state) {
   (void)state;
   bike_model bike = roadster();
@@ -251,9 +278,13 @@ static int forget(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(wrong_definitions_are_refused),     cmocka_unit_test(pointers_are_checked),
-      cmocka_unit_test(impossible_start_is_its_own_error), cmocka_unit_test(default_is_good),
-      cmocka_unit_test(unreachable_accuracy_is_an_error),  cmocka_unit_test(library_is_silent),
+      cmocka_unit_test(the_broken_rule_is_named),
+      cmocka_unit_test(wrong_definitions_are_refused),
+      cmocka_unit_test(pointers_are_checked),
+      cmocka_unit_test(impossible_start_is_its_own_error),
+      cmocka_unit_test(default_is_good),
+      cmocka_unit_test(unreachable_accuracy_is_an_error),
+      cmocka_unit_test(library_is_silent),
   };
   return cmocka_run_group_tests(tests, NULL, forget);
 }

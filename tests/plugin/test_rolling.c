@@ -176,7 +176,7 @@ static void test_resting_disc_carries_its_weight(void **unused) {
   roll_disc disc;
   mj_forward(m, d);
   assert_int_equal(roll_discs(&disc, 1, m, d), ROLL_OK);
-  assert_string_equal(disc.name, "disc");
+  assert_string_equal(disc.name, "rim");
   assert_near(disc.normal_force, 2 * 9.81, 1e-12);
   assert_near(disc.force[0], 0, 1e-12);
   assert_near(disc.force[1], 0, 1e-12);

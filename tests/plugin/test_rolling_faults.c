@@ -65,6 +65,98 @@ static void test_no_axle(void **unused) {
   mj_deleteModel(m);
 }
 
+// One element of the cart's tuples spoilt: the error, and which of skate and driven joint it is in.
+static void expect_fault(roll_error expected, int expected_element, int address, int type, int id,
+                         mjtNum prm) {
+  mjModel *m = load("cart.xml");
+  m->tuple_objtype[address] = type;
+  m->tuple_objid[address] = id;
+  m->tuple_objprm[address] = prm;
+  int element;
+  assert_int_equal(roll_check(&element, m), expected);
+  assert_int_equal(element, expected_element);
+  mjData *d = mj_makeData(m);
+  roll_drive drive;
+  mj_forward(m, d);
+  for (int i = 0; i < m->nv; i++) assert_true(isfinite(d->qacc[i]));
+  assert_int_equal(roll_drives(&drive, 1, m, d), expected);
+  assert_int_equal(drive.error, expected_element == 1 ? expected : ROLL_OK);
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
+static void test_faulty_skates_and_drives(void **unused) {
+  (void)unused;
+  mjModel *m = load("cart.xml");
+  int blade = mj_name2id(m, mjOBJ_GEOM, "blade"), load_joint = mj_name2id(m, mjOBJ_JOINT, "load");
+  int body = mj_name2id(m, mjOBJ_BODY, "sleigh");
+  enum { GROUND, SKATE, DRIVEN };
+  assert_int_equal(roll_check(NULL, m), ROLL_OK);
+  expect_fault(ROLL_BAD_SKATE, 0, SKATE, mjOBJ_BODY, body, 0);
+  expect_fault(ROLL_BAD_RADIUS, 0, SKATE, mjOBJ_GEOM, blade, -0.1);
+  expect_fault(ROLL_BAD_RADIUS, 0, SKATE, mjOBJ_GEOM, blade, NAN);
+  expect_fault(ROLL_BAD_JOINT, 1, DRIVEN, mjOBJ_GEOM, blade, 0);
+  expect_fault(ROLL_BAD_DRIVE, 1, DRIVEN, mjOBJ_JOINT, load_joint, 4);
+  expect_fault(ROLL_BAD_DRIVE, 1, DRIVEN, mjOBJ_JOINT, load_joint, -1);
+  expect_fault(ROLL_BAD_DRIVE, 1, DRIVEN, mjOBJ_JOINT, load_joint, 0.5);
+  expect_fault(ROLL_BAD_DRIVE, 1, DRIVEN, mjOBJ_JOINT, load_joint, NAN);
+  mj_deleteModel(m);
+
+  m = load("sway.xml");
+  m->numeric_size[0] = 3;
+  assert_int_equal(roll_check(NULL, m), ROLL_BAD_DRIVE);
+  mj_deleteModel(m);
+}
+
+static void test_ground_that_moves(void **unused) {
+  (void)unused;
+  mjModel *m = load("slope.xml");
+  int plane = mj_name2id(m, mjOBJ_GEOM, "hillside"), element;
+  m->geom_bodyid[plane] = mj_name2id(m, mjOBJ_BODY, "disc");
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_GROUND);
+  assert_int_equal(element, 0);
+  m->geom_bodyid[plane] = mj_name2id(m, mjOBJ_BODY, "slope");
+  assert_int_equal(roll_check(&element, m), ROLL_OK);
+  m->body_mocapid[m->geom_bodyid[plane]] = 0;
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_GROUND);
+  mj_deleteModel(m);
+}
+
+static void test_bad_sensors(void **unused) {
+  (void)unused;
+  mjModel *m = load("bicycle.xml");
+  int id = mj_name2id(m, mjOBJ_SENSOR, "rolling:front_wheel:height"), element;
+  char *name = m->names + m->name_sensoradr[id];
+  assert_int_equal(roll_check(&element, m), ROLL_OK);
+  name[strlen(name) - 1] = 's'; // no quantity
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
+  assert_int_equal(element, -1);
+  name[strlen(name) - 1] = 't';
+  name[strlen("rolling:")] = 'F'; // no wheel
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
+  name[strlen("rolling:")] = 'f';
+  m->sensor_dim[id] = 3;
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
+  m->sensor_dim[id] = 1;
+  m->sensor_needstage[id] = mjSTAGE_POS;
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
+  mj_deleteModel(m);
+}
+
+// A massless wheel makes the mass matrix singular: MuJoCo warns, and nothing hangs or crashes.
+static void test_singular_mass_matrix(void **unused) {
+  (void)unused;
+  mjModel *m = load("bicycle.xml");
+  int wheel = mj_name2id(m, mjOBJ_BODY, "front_wheel");
+  m->body_mass[wheel] = 0;
+  mju_zero(m->body_inertia + 3 * wheel, 3);
+  mjData *d = mj_makeData(m);
+  for (int i = 0; i < 10; i++) mj_step(m, d);
+  assert_true(d->warning[mjWARN_INERTIA].number > 0);
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
 static void test_flat_disc_is_left_free(void **unused) {
   (void)unused;
   mjModel *m = load("disc_free.xml");
@@ -112,24 +204,24 @@ static void step_often(const mjModel *m, int warnings_after_one, int warnings_af
 // Each complaint is made once, through mju_warning, and not before the second step.
 static void test_warnings(void **unused) {
   (void)unused;
-  mjModel *m = load("bicycle.xml"), *sensor = load("obstacle.xml");
-  mjModel *bad = mj_copyModel(NULL, m), *sparse = mj_copyModel(NULL, m);
-  bad->tuple_objprm[0] = 0;
-  sparse->opt.jacobian = mjJAC_SPARSE;
-  sparse->jnt_limited[7] = 1;
-  sparse->jnt_range[14] = 0.1; // the steer angle, 0, is beyond it
-  sparse->jnt_range[15] = 0.2;
+  mjModel *m = load("bicycle.xml"), *blind = load("obstacle.xml"), *off = load("disc_free.xml");
+  mjModel *bad = mj_copyModel(NULL, m), *twice = load("tricycle.xml");
+  bad->tuple_objprm[0] = -1;
+  off->qpos0[2] += 0.01;
   step_often(m, 0, 0);
   step_often(bad, 0, 1);
   assert_string_equal(last_warning, roll_error_string(ROLL_BAD_RADIUS));
   step_often(bad, 0, 0);
-  step_often(sparse, 0, 1);
-  assert_non_null(strstr(last_warning, "sparse"));
-  step_often(sensor, 0, 1);
+  step_often(blind, 0, 1);
   assert_non_null(strstr(last_warning, "sensors"));
-  mj_deleteModel(sensor);
-  mj_deleteModel(sparse);
+  step_often(twice, 0, 1);
+  assert_non_null(strstr(last_warning, "repeat"));
+  step_often(off, 0, 1);
+  assert_non_null(strstr(last_warning, "roll_project"));
+  mj_deleteModel(twice);
   mj_deleteModel(bad);
+  mj_deleteModel(off);
+  mj_deleteModel(blind);
   mj_deleteModel(m);
 }
 
@@ -159,6 +251,10 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_faulty_markers),
       cmocka_unit_test(test_no_axle),
+      cmocka_unit_test(test_faulty_skates_and_drives),
+      cmocka_unit_test(test_ground_that_moves),
+      cmocka_unit_test(test_bad_sensors),
+      cmocka_unit_test(test_singular_mass_matrix),
       cmocka_unit_test(test_flat_disc_is_left_free),
       cmocka_unit_test(test_small_stack),
       cmocka_unit_test(test_warnings),

@@ -143,18 +143,21 @@ static void test_nothing_is_remembered(void **unused) {
 
 //---------------------------------- MuJoCo's own constraints --------------------------------------
 
-// Contacts, friction loss and an equality in one model, every solver and both friction cones. What
-// is left is RK4's error at the jumps of the contact forces; rows that move the disc leave 1e-2.
+// Contacts, friction loss, an equality, a tendon and actuators in one model, every solver, both
+// friction cones, dense and sparse. What is left is RK4's error at the jumps of the contact forces;
+// rows that move the disc leave 1e-2.
 static void test_beside_contacts(void **unused) {
   (void)unused;
-  for (int kind = 0; kind < 6; kind++) {
+  for (int kind = 0; kind < 12; kind++) {
     mjModel *m = load("obstacle.xml");
-    m->opt.solver = kind / 2; // mjSOL_PGS, mjSOL_CG, mjSOL_NEWTON
-    m->opt.cone = kind % 2;   // mjCONE_PYRAMIDAL, mjCONE_ELLIPTIC
+    m->opt.solver = kind / 2 % 3; // mjSOL_PGS, mjSOL_CG, mjSOL_NEWTON
+    m->opt.cone = kind % 2;       // mjCONE_PYRAMIDAL, mjCONE_ELLIPTIC
+    m->opt.jacobian = kind < 6 ? mjJAC_DENSE : mjJAC_SPARSE;
     mjData *d = mj_makeData(m);
     d->qvel[0] = 2;
     d->qvel[3] = 0.2;
     d->qvel[5] = 2 / 0.3;
+    for (int i = 0; i < m->nu; i++) d->ctrl[i] = 0.3 - 0.1 * i;
     assert_int_equal(roll_project(m, d), ROLL_OK);
     worst w = ride(m, d, 1000);
     assert_true(d->qvel[0] < 0.5); // the box has stopped it
@@ -162,6 +165,30 @@ static void test_beside_contacts(void **unused) {
     assert_below(w.slip, 1e-5);
     mj_deleteData(d);
     mj_deleteModel(m);
+  }
+}
+
+// Euler and implicit are of first order, and so are the constraints under them: half the step, half
+// the slip. Under RK4 there is none to speak of.
+static void test_other_integrators(void **unused) {
+  (void)unused;
+  for (int integrator = 0; integrator < 3; integrator++) { // mjINT_EULER, RK4, IMPLICIT
+    mjtNum slip[2];
+    for (int half = 0; half < 2; half++) {
+      mjModel *m = load("bicycle.xml");
+      m->opt.integrator = integrator;
+      m->opt.timestep = half ? 5e-4 : 1e-3;
+      mjData *d = start_from_key(m);
+      slip[half] = ride(m, d, half ? 2000 : 1000).slip;
+      mj_deleteData(d);
+      mj_deleteModel(m);
+    }
+    if (integrator == mjINT_RK4) {
+      assert_below(slip[0], 1e-11);
+    } else {
+      assert_below(slip[0], 3e-3);
+      assert_near(slip[0] / slip[1], 2, 0.1);
+    }
   }
 }
 
@@ -237,6 +264,7 @@ int main(void) {
       cmocka_unit_test(test_threads_are_bitwise_serial),
       cmocka_unit_test(test_nothing_is_remembered),
       cmocka_unit_test(test_beside_contacts),
+      cmocka_unit_test(test_other_integrators),
       cmocka_unit_test(test_tricycle),
       cmocka_unit_test(test_disc_marked_twice),
   };

@@ -16,7 +16,7 @@ typedef struct fixture {
 static int load(void **state) {
   static fixture f;
   char path[1024], error[500] = "";
-  snprintf(path, sizeof path, "%s/bicycle.xml", getenv("ROLL_MODELS"));
+  snprintf(path, sizeof path, "%s/bicycle.xml", getenv("ROLL_EXAMPLES"));
   f.m = mj_loadXML(path, NULL, error, sizeof error);
   if (!f.m) return -1;
   f.d = mj_makeData(f.m);
@@ -58,10 +58,35 @@ static void test_only_roll_symbols(void **state) {
   assert_int_equal(dlclose(library), 0);
 }
 
+// With ROLL_KEYFRAME a fresh state starts from that keyframe, as if it had been loaded by hand; a
+// state of its own is left alone.
+static void test_start_from_keyframe(void **state) {
+  fixture *f = *state;
+  mjData *by_hand = mj_makeData(f->m), *own = mj_makeData(f->m);
+  mj_resetDataKeyframe(f->m, by_hand, mj_name2id(f->m, mjOBJ_KEY, "test"));
+  own->qvel[0] = 1;
+  assert_int_equal(setenv("ROLL_KEYFRAME", "test", 1), 0);
+  void *library = dlopen(getenv("ROLL_LIBRARY"), RTLD_NOW | RTLD_LOCAL);
+  assert_int_equal(unsetenv("ROLL_KEYFRAME"), 0);
+  assert_non_null(library);
+  mj_resetData(f->m, f->d);
+  mj_step(f->m, f->d);
+  mj_step(f->m, by_hand);
+  mj_step(f->m, own);
+  for (int i = 0; i < f->m->nv; i++) assert_near(f->d->qvel[i], by_hand->qvel[i], 1e-12);
+  assert_true(f->d->qvel[0] > 4.9);
+  assert_true(own->qvel[0] < 1.1);
+  assert_int_equal(dlclose(library), 0);
+  assert_null(mjcb_control);
+  mj_deleteData(own);
+  mj_deleteData(by_hand);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_loading_installs),
       cmocka_unit_test(test_only_roll_symbols),
+      cmocka_unit_test(test_start_from_keyframe),
   };
   return cmocka_run_group_tests(tests, load, unload);
 }

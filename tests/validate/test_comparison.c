@@ -48,7 +48,7 @@ static void test_later_end_is_named(void **state) {
   wrong.ride = ride_and_fall_late;
   support_run *f = support_open(&wrong, fall_text);
   comparison *c = support_play(f);
-  support_expect_failure(c, "L2", "end_time");
+  support_expect_failure(c, "L2", "end time");
   assert_near(support_find(c, "L2", "end_time", "difference")->value, 0.005, 1e-3);
   support_close(f);
 }
@@ -117,7 +117,65 @@ static void test_impossible_start_is_usage(void **state) {
                          "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1,"
                          " reason: test}\n");
   assert_int_equal(comparison_run(&f->comparison, &p), TERM_USAGE);
-  assert_non_null(strstr(p.text, "start"));
+  // The reason stands once, behind its prefixes.
+  const char *start = strstr(p.text, "start: ");
+  assert_non_null(start);
+  assert_non_null(strstr(start, "geometry"));
+  assert_null(strstr(start + 1, "start: "));
+  support_close(f);
+}
+
+static term_exit evaluate_with_more_force(engine_instant *out, void *instance, const bike_state *at,
+                                          problem *p) {
+  term_exit code = engine_mujoco.evaluate(out, instance, at, p);
+  for (int k = 0; k < 3; k++) out->force[0][k] *= 1 + 1e-6;
+  return code;
+}
+
+// A force of many times the weight errs by its own size, not by that of the weight.
+static void test_large_forces_are_relative(void **state) {
+  (void)state;
+  engine wrong = engine_mujoco;
+  wrong.evaluate = evaluate_with_more_force;
+  support_run *f = support_open(&wrong, "title: fast\nbicycle: benchmark\n"
+                                        "start: {speed: 100, lean: 0.1, steer: 0.3}\n"
+                                        "duration: 0.01\nsample: 0.01\ninstants: {count: 0}\n"
+                                        "reference: {engine: analytic}\n"
+                                        "candidate: {engine: mujoco}\ngates:\n"
+                                        "  - {layer: L0, metric: relative, limit: 1, reason: t}\n");
+  comparison *c = support_play(f);
+  assert_near(support_find(c, "L0", "rear_force", "relative")->value, 1e-6, 1e-9);
+  support_close(f);
+}
+
+static void test_problem_of_itself(void **state) {
+  (void)state;
+  problem p;
+  problem_set(&p, TERM_USAGE, "%s", "reason");
+  assert_int_equal(problem_set(&p, TERM_USAGE, "start: %s, %s", p.text, p.text), TERM_USAGE);
+  assert_string_equal(p.text, "start: reason, reason");
+}
+
+static term_exit ride_to_another_end(trace *out, void *instance, const engine_ride *asked,
+                                     problem *p) {
+  term_exit code = engine_mujoco.ride(out, instance, asked, p);
+  out->end_event.kind = BIKE_EVENT_LEAN_LIMIT;
+  out->end_time = out->end_event.time -= 0.25;
+  return code;
+}
+
+// Rides that end differently differ by a time, and of earlier layers nothing is said that no gate
+// has asked.
+static void test_another_end_is_a_number(void **state) {
+  (void)state;
+  engine wrong = engine_mujoco;
+  wrong.ride = ride_to_another_end;
+  support_run *f = support_open(&wrong, fall_text);
+  comparison *c = support_play(f);
+  support_expect_failure(c, "L2", "end time");
+  support_expect_failure(c, "L2", "lean limit");
+  assert_near(support_find(c, "L2", "end_time", "difference")->value, 0.25, 1e-3);
+  if (strstr(c->cause, "agree")) fail_msg("nobody has asked: %s", c->cause);
   support_close(f);
 }
 
@@ -126,6 +184,9 @@ int main(void) {
       cmocka_unit_test(test_agreement),
       cmocka_unit_test(test_same_end_agrees),
       cmocka_unit_test(test_later_end_is_named),
+      cmocka_unit_test(test_another_end_is_a_number),
+      cmocka_unit_test(test_large_forces_are_relative),
+      cmocka_unit_test(test_problem_of_itself),
       cmocka_unit_test(test_work_is_balanced),
       cmocka_unit_test(test_other_engines),
       cmocka_unit_test(test_growth),

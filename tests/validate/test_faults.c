@@ -16,7 +16,7 @@ static void test_wrong_mass_is_named(void **state) {
   support_run *f = support_open(NULL, support_scenario_text);
   mjModel *m = model_of(f);
   m->body_mass[mj_name2id(m, mjOBJ_BODY, "front_frame")] *= 1 + 1e-9;
-  support_expect_failure(support_play(f), "Lp", "front_frame_mass");
+  support_expect_failure(support_play(f), "Lp", "front frame mass");
   support_close(f);
 }
 
@@ -53,7 +53,7 @@ static void test_wrong_damping_is_named(void **state) {
   support_run *f = support_open(NULL, support_scenario_text);
   mjModel *m = model_of(f);
   m->dof_damping[m->jnt_dofadr[mj_name2id(m, mjOBJ_JOINT, "steer")]] = 1e-6;
-  support_expect_failure(support_play(f), "Lp", "steer_damping");
+  support_expect_failure(support_play(f), "Lp", "steer damping");
   support_close(f);
 }
 
@@ -70,7 +70,7 @@ static void test_wrong_acceleration_is_L0(void **state) {
   engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_wrong;
   support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "steer_acceleration");
+  support_expect_failure(support_play(f), "L0", "steer acceleration");
   support_close(f);
 }
 
@@ -103,7 +103,7 @@ static void test_nan_at_one_instant_fails(void **state) {
   engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_nan;
   support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "front_force");
+  support_expect_failure(support_play(f), "L0", "front force");
   support_close(f);
 }
 
@@ -215,7 +215,7 @@ static void test_early_end_is_named(void **state) {
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
   support_expect_failure(c, "L2", "0.305 s");
-  assert_non_null(strstr(c->cause, "end_time"));
+  assert_non_null(strstr(c->cause, "end time"));
   support_close(f);
 }
 

@@ -125,11 +125,11 @@ static void test_unmeasured_fails(void **state) {
                     .signal_count = 2};
   gate_rules rules = {&rule, 1, 1};
   gate_list gates = {0};
-  assert_true(gates_judge(&gates, &nothing, &rules, 4));
+  assert_true(gates_judge(&gates, &nothing, &rules, 5));
   assert_int_equal(gates.count, 2);
   assert_int_equal(gates_failed(&gates), 2);
   gates_clear(&gates);
-  assert_true(gates_judge(&gates, &nothing, &rules, 3)); // L3 was not reached: nothing to say
+  assert_true(gates_judge(&gates, &nothing, &rules, 4)); // L3 was not reached: nothing to say
   assert_int_equal(gates.count, 0);
   gates_clear(&gates);
 }

@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <folder.h>
 #include <report.h>
+#include <report_pack.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,6 +52,14 @@ static char *beside(const fixture *f, const char *name) {
   return path;
 }
 
+static term_exit write_report(const fixture *f, const char *path, problem *p) {
+  json_t *document = report_document(&f->report);
+  assert_non_null(document);
+  term_exit code = report_write(&f->report, document, path, p);
+  json_decref(document);
+  return code;
+}
+
 static json_t *load_report(const fixture *f) {
   char *path = beside(f, "report.json");
   json_t *document = json_load_file(path, 0, NULL);
@@ -87,7 +96,7 @@ static void test_structure(void **state) {
   (void)state;
   fixture *f = open_fixture(support_scenario_text);
   problem p = {""};
-  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
   json_t *document = load_report(f);
   assert_string_equal(text_of(document, "schema"), REPORT_SCHEMA);
   assert_int_equal(json_integer_value(json_object_get(document, "version")), 1);
@@ -157,7 +166,7 @@ static void test_csv(void **state) {
   (void)state;
   fixture *f = open_fixture(support_scenario_text);
   problem p = {""};
-  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
   static const char *const names[] = {"test-analytic.csv", "test-mujoco.csv", "test-residuals.csv"};
   for (int i = 0; i < 3; i++) {
     char *path = beside(f, names[i]), *text = support_read(path);
@@ -174,13 +183,102 @@ static void test_csv(void **state) {
   close_fixture(f);
 }
 
+static void expect_part(const char *text, const char *part) {
+  if (!strstr(text, part)) fail_msg("no '%s'", part);
+}
+
+static char *view_of(const fixture *f, const char *name) {
+  char *path = beside(f, name), *text = support_read(path);
+  assert_non_null(text);
+  free(path);
+  return text;
+}
+
+// A title that every kind of markup would take for its own, and a gate that fails.
+static const char hostile[] = "title: '</script><b>&\"|x'";
+
+static void test_views_escape(void **state) {
+  (void)state;
+  char *text = NULL;
+  assert_true(asprintf(&text, "%s%s", hostile, strchr(support_scenario_text, '\n')) > 0);
+  char *limit = strstr(text, "limit: 1e-11");
+  memcpy(limit, "limit: 1e-22", strlen("limit: 1e-22"));
+  fixture *f = open_fixture(text);
+  problem p = {""};
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
+  char *html = view_of(f, "report.html"), *junit = view_of(f, "junit.xml");
+  char *summary = view_of(f, "summary.md");
+  assert_null(strstr(html, "</script><b>"));
+  expect_part(html, "&lt;/script&gt;&lt;b&gt;&amp;&quot;|x");
+  expect_part(html, "<h1>Fail");
+  expect_part(html, "default-src 'none'");
+  expect_part(junit, "tests=\"");
+  expect_part(junit, "<failure message=\"");
+  expect_part(junit, "classname=\"test.L2\" name=\"lean max\"");
+  expect_part(summary, "## Fail: 1 scenario, 2 of ");
+  expect_part(summary, "\\</script\\>\\<b\\>&\"\\|x");
+  expect_part(summary, "- `L2 lean max`: ");
+  free(html);
+  free(junit);
+  free(summary);
+  close_fixture(f);
+  free(text);
+}
+
+// A run without rides has a page too, and one test that says why.
+static void test_views_of_invalid_run(void **state) {
+  (void)state;
+  char *text = strdup(support_scenario_text), *speed = strstr(text, "4.6");
+  memcpy(speed, "1e9", 3);
+  memcpy(strstr(text, "1e-9,"), "1e99,", 5); // L0, so that nothing fails before the ride
+  fixture *f = open_fixture(text);
+  problem p = {""};
+  assert_int_equal(f->comparison.verdict, VERDICT_INVALID);
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
+  char *html = view_of(f, "report.html"), *junit = view_of(f, "junit.xml");
+  expect_part(html, "<h1>Invalid");
+  expect_part(html, "There is no ride to show");
+  expect_part(junit, "errors=\"1\"");
+  expect_part(junit, "<error message=\"");
+  free(html);
+  free(junit);
+  close_fixture(f);
+  free(text);
+}
+
+// Of many long rides only every other row goes into the page, and the page says so.
+static void test_page_is_thinned(void **state) {
+  (void)state;
+  enum { COPIES = 400 }; // of 51 rows each: more than a page holds
+  fixture *f = open_fixture(support_scenario_text);
+  comparison *copies = calloc(COPIES, sizeof *copies);
+  char *text = NULL;
+  size_t size;
+  assert_non_null(copies);
+  for (int i = 0; i < COPIES; i++) copies[i] = f->comparison;
+  report many = {.comparisons = copies, .count = COPIES};
+  assert_int_equal(report_pack_stride(&f->report), 1);
+  assert_int_equal(report_pack_stride(&many), 2);
+  FILE *stream = open_memstream(&text, &size);
+  assert_non_null(stream);
+  assert_true(report_pack(stream, &f->comparison, 2));
+  assert_int_equal(fclose(stream), 0);
+  expect_part(text, "\"rows\":26,\"step\":0.02,\"stride\":2");
+  json_t *packed = json_loads(text, 0, NULL);
+  assert_non_null(packed);
+  json_decref(packed);
+  free(text);
+  free(copies);
+  close_fixture(f);
+}
+
 static void test_earlier_report_is_replaced(void **state) {
   (void)state;
   fixture *f = open_fixture(support_scenario_text);
   problem p = {""};
   for (int i = 0; i < 3; i++) {
-    assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
-    assert_int_equal(count_entries(f->target), 4);
+    assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
+    assert_int_equal(count_entries(f->target), 3 + REPORT_VIEWS);
     assert_int_equal(count_entries(f->home), 2); // the scenario and the report: nothing aside
   }
   close_fixture(f);
@@ -190,7 +288,7 @@ static void expect_refusal(const fixture *f, const char *path, const char *messa
   problem p = {""};
   int entries = count_entries(f->home);
   assert_int_equal(folder_check(path, &p), TERM_USAGE);
-  assert_int_equal(report_write(&f->report, path, &p), TERM_USAGE);
+  assert_int_equal(write_report(f, path, &p), TERM_USAGE);
   if (!strstr(p.text, message)) fail_msg("'%s' instead of '%s'", p.text, message);
   assert_int_equal(count_entries(f->home), entries);
 }
@@ -208,7 +306,7 @@ static void test_nothing_else_is_replaced(void **state) {
   expect_refusal(f, nowhere, "No such file");
   expect_refusal(f, "", "empty");
   expect_refusal(f, f->home, "is not a report");
-  assert_int_equal(report_write(&f->report, f->target, &p), TERM_DONE);
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
   char *notes = support_write(f->target, "notes.txt", "mine");
   expect_refusal(f, f->target, "notes.txt");
   char *kept = support_read(notes);
@@ -230,12 +328,12 @@ static void test_empty_folder_and_link(void **state) {
   assert_true(asprintf(&link, "%s/link", f->home) > 0);
   assert_true(asprintf(&slashes, "%s//", f->target) > 0);
   assert_int_equal(symlink("report", link), 0);
-  assert_int_equal(report_write(&f->report, link, &p), TERM_DONE);
-  assert_int_equal(report_write(&f->report, slashes, &p), TERM_DONE);
+  assert_int_equal(write_report(f, link, &p), TERM_DONE);
+  assert_int_equal(write_report(f, slashes, &p), TERM_DONE);
   struct stat status;
   assert_int_equal(lstat(link, &status), 0);
   assert_true(S_ISLNK(status.st_mode));
-  assert_int_equal(count_entries(f->target), 4);
+  assert_int_equal(count_entries(f->target), 3 + REPORT_VIEWS);
   free(link);
   free(slashes);
   close_fixture(f);
@@ -247,6 +345,9 @@ int main(void) {
       cmocka_unit_test(test_failure_is_told),
       cmocka_unit_test(test_same_twice),
       cmocka_unit_test(test_csv),
+      cmocka_unit_test(test_views_escape),
+      cmocka_unit_test(test_views_of_invalid_run),
+      cmocka_unit_test(test_page_is_thinned),
       cmocka_unit_test(test_earlier_report_is_replaced),
       cmocka_unit_test(test_nothing_else_is_replaced),
       cmocka_unit_test(test_empty_folder_and_link),

@@ -113,6 +113,25 @@ static void test_usage_is_2(void **state) {
   }
 }
 
+// A disk that is full, here by the largest size of a file: without a report there is no verdict.
+static void test_no_verdict_without_report(void **state) {
+  (void)state;
+  char *command = NULL;
+  write_scenario("good.yml", NULL, "");
+  assert_true(asprintf(&command,
+                       "cd %s && trap '' XFSZ && ulimit -f 8 && " BICYCLE_BINARY_DIR
+                       "/bin/bicycle-validate good.yml -o lost >out 2>err",
+                       folder) > 0);
+  int status = system(command);
+  free(command);
+  assert_true(WIFEXITED(status));
+  assert_int_equal(WEXITSTATUS(status), 2);
+  expect_text("err", "File too large");
+  char *printed = output("out");
+  assert_string_equal(printed, "");
+  free(printed);
+}
+
 static void test_json(void **state) {
   (void)state;
   write_scenario("short.yml", NULL, "");
@@ -156,6 +175,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(test_failure_is_1, make_folder, remove_folder),
       cmocka_unit_test_setup_teardown(test_invalid_run_is_3, make_folder, remove_folder),
       cmocka_unit_test_setup_teardown(test_usage_is_2, make_folder, remove_folder),
+      cmocka_unit_test_setup_teardown(test_no_verdict_without_report, make_folder, remove_folder),
       cmocka_unit_test_setup_teardown(test_json, make_folder, remove_folder),
       cmocka_unit_test_setup_teardown(test_help_and_list, make_folder, remove_folder),
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "canvas.h"
 
+#include "escape.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -52,25 +54,6 @@ static void include(draw_canvas *canvas, draw_point point) {
   bounds->high.y = fmax(bounds->high.y, point.y);
 }
 
-// Text of a file within XML: reserved and control characters replaced.
-static void put_escaped(FILE *stream, const char *text) {
-  for (; *text; text++) {
-    switch (*text) {
-    case '&':
-      fputs("&amp;", stream);
-      break;
-    case '<':
-      fputs("&lt;", stream);
-      break;
-    case '>':
-      fputs("&gt;", stream);
-      break;
-    default:
-      fputc((unsigned char)*text < ' ' ? ' ' : *text, stream);
-    }
-  }
-}
-
 bool draw_write(draw_canvas *canvas, const char *title, FILE *stream) {
   if (fflush(canvas->body) != 0 || ferror(canvas->body) || canvas->obstacles.lost) return false;
   double left = canvas->bounds.low.x - MARGIN, top = canvas->bounds.low.y - MARGIN;
@@ -81,7 +64,7 @@ bool draw_write(draw_canvas *canvas, const char *title, FILE *stream) {
           "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
           "viewBox=\"%.2f %.2f %.2f %.2f\">\n<title>",
           width, height, left, top, width, height);
-  put_escaped(stream, title);
+  draw_put_escaped(stream, title);
   fprintf(stream, "</title>\n<style>\n%s</style>\n", style_sheet);
   fprintf(stream, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n",
           left, top, width, height);
@@ -147,18 +130,11 @@ void draw_quarter(draw_canvas *canvas, const char *style, draw_point centre, dou
           centre.x, centre.y, a.x, a.y, radius, radius, b.x, b.y);
 }
 
-// Characters of UTF-8.
-static double count_characters(const char *text) {
-  double count = 0;
-  for (; *text; text++) count += ((unsigned char)*text & 0xC0) != 0x80;
-  return count;
-}
-
 draw_box draw_label_box(draw_point middle, const draw_label *label) {
   // Mean widths of the characters of DejaVu in units of the font size, on the safe side.
-  double width = DRAW_FONT_SIZE *
-                 (0.66 * count_characters(label->symbol) +
-                  0.48 * count_characters(label->subscript) + 0.57 * count_characters(label->rest));
+  double width = DRAW_FONT_SIZE * (0.66 * draw_count_characters(label->symbol) +
+                                   0.48 * draw_count_characters(label->subscript) +
+                                   0.57 * draw_count_characters(label->rest));
   double half_width = width / 2 + 3, half_height = 0.62 * DRAW_FONT_SIZE + 2;
   return (draw_box){{middle.x - half_width, middle.y - half_height},
                     {middle.x + half_width, middle.y + half_height}};
@@ -170,16 +146,16 @@ void draw_text(draw_canvas *canvas, draw_point middle, const draw_label *label) 
           middle.y + 0.36 * DRAW_FONT_SIZE, DRAW_FONT_SIZE); // the baseline is below the middle
   if (*label->symbol) {
     fputs("<tspan class=\"symbol\">", out);
-    put_escaped(out, label->symbol);
+    draw_put_escaped(out, label->symbol);
     fputs("</tspan>", out);
   }
   if (*label->subscript) {
     fputs("<tspan dy=\"4\" font-size=\"11\">", out);
-    put_escaped(out, label->subscript);
+    draw_put_escaped(out, label->subscript);
     fputs("</tspan>", out);
   }
   fprintf(out, "<tspan dx=\"%d\" dy=\"%d\">", *label->symbol ? 5 : 0, *label->subscript ? -4 : 0);
-  put_escaped(out, label->rest);
+  draw_put_escaped(out, label->rest);
   fputs("</tspan></text>\n", out);
   draw_box box = draw_label_box(middle, label);
   include(canvas, box.low);
@@ -208,8 +184,9 @@ draw_point draw_text_best(draw_canvas *canvas, const draw_point *middles, int co
 void draw_title(draw_canvas *canvas, draw_point left, const char *text) {
   fprintf(canvas->body, "<text class=\"title\" x=\"%.2f\" y=\"%.2f\" font-size=\"%d\">", left.x,
           left.y, DRAW_TITLE_SIZE);
-  put_escaped(canvas->body, text);
+  draw_put_escaped(canvas->body, text);
   fputs("</text>\n", canvas->body);
   include(canvas, (draw_point){left.x, left.y - DRAW_TITLE_SIZE});
-  include(canvas, (draw_point){left.x + 0.7 * DRAW_TITLE_SIZE * count_characters(text), left.y});
+  include(canvas,
+          (draw_point){left.x + 0.7 * DRAW_TITLE_SIZE * draw_count_characters(text), left.y});
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 // A label may cross a line if it must, but never stand on another label.
-static const double crossed_pixel_cost = 4, covered_box_cost = 1e4;
+static const double covered_box_cost = 1e4;
 
 draw_point draw_along(draw_point from, draw_point direction, double distance) {
   return (draw_point){from.x + distance * direction.x, from.y + distance * direction.y};
@@ -85,6 +85,6 @@ double draw_box_cost(const draw_obstacles *obstacles, draw_box box) {
   for (size_t i = 0; i < obstacles->box_count; i++)
     if (boxes_overlap(obstacles->boxes[i], box)) cost += covered_box_cost;
   for (size_t i = 0; i < obstacles->segment_count; i++)
-    cost += crossed_pixel_cost * length_inside(obstacles->segments[i], box);
+    cost += DRAW_CROSSED_PIXEL_COST * length_inside(obstacles->segments[i], box);
   return cost;
 }

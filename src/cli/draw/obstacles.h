@@ -32,6 +32,8 @@ void draw_obstacles_free(draw_obstacles *obstacles);
 void draw_add_box(draw_obstacles *obstacles, draw_box box);
 void draw_add_segment(draw_obstacles *obstacles, draw_point a, draw_point b);
 
+enum { DRAW_CROSSED_PIXEL_COST = 4 }; // of each pixel of a line within a box
+
 // How badly a box would sit: the lines that cross it count, and, much more, covered boxes.
 double draw_box_cost(const draw_obstacles *obstacles, draw_box box);
 

@@ -14,9 +14,9 @@
 // One output being written. Only `stream` is for the caller, who must not close it.
 typedef struct bike_output {
   FILE *stream;    // write here, from begin to commit or abort; NULL otherwise
-  char *target;    // the file that commit brings about; NULL: written straight to `stream`
-  char *temporary; // name under which it is written or linked beside the target
-  bool named;      // `temporary` exists in the file system
+  char *target;    // the file that commit brings about, a device or pipe; NULL: standard output
+  char *temporary; // the file beside the target, while there is one
+  bool direct;     // written straight to the target: a device, a pipe, the standard output
 } bike_output;
 
 // Begins an output. `path` NULL or "-" is the standard output; a device or a pipe is written

@@ -86,6 +86,8 @@ enum { BIKE_MAX_EVENTS = 64 };
 typedef struct bike_ride_result {
   double end_time; // s   reached
   bool complete;   //     the whole duration was ridden
+  bike_sample end; //     at end_time, be it a row or not; where the equations have no answer there,
+                   //     and after an error: the last row
   int event_count; //     further events than BIKE_MAX_EVENTS are counted, not kept
   bike_event events[BIKE_MAX_EVENTS];
   long evaluations; //     right-hand sides
@@ -95,6 +97,10 @@ typedef struct bike_ride_result {
 // Default definition; fill in start, duration, sample and on_sample. RK8 at 1e-13 (energy drifts by
 // 1e-15 a second, traces err by 1e-14), step 1 ms, lean limit 80 degrees.
 BIKE_API bike_ride_def bike_default_ride_def(void);
+
+// The first rule above that a definition breaks, in words: "rtol must be ..."; NULL: none. Of the
+// start state nothing is asked here.
+BIKE_API const char *bike_ride_broken_rule(const bike_ride_def *def);
 
 // Rides. 0 also when an event ended the ride early (see `complete`). Errors: ARGUMENT for a
 // definition that breaks a rule above; those of bike_evaluate for the start state; NOT_FINITE,

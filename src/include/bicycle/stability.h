@@ -4,6 +4,7 @@
 #define BICYCLE_STABILITY_H
 
 #include <bicycle/linear.h>
+#include <stdbool.h>
 
 // Four eigenvalues, in falling order of real, then of imaginary part. Unit 1/s.
 typedef struct bike_eigenvalues {
@@ -26,6 +27,13 @@ typedef struct bike_critical_speeds {
 
 // Eigenvalues of A (row-major, 4 x 4).
 BIKE_API int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]);
+
+// Real parts below this, in either direction, are rounding, 1/s: some 1e4 roundings of the largest
+// eigenvalue, as A and its eigenvalues carry. An eigenvalue within it neither grows nor decays.
+BIKE_API double bike_neutral_band(const bike_eigenvalues *eigenvalues);
+
+// Whether every motion decays; a neutral one does not.
+BIKE_API bool bike_all_decay(const bike_eigenvalues *eigenvalues);
 
 // Eigenvalues of upright straight riding at a speed (any sign, zero included).
 BIKE_API int bike_upright_eigenvalues(bike_eigenvalues *out, const bike_model *model, double speed);

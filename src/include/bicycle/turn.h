@@ -30,23 +30,27 @@ typedef enum bike_turn_mark {
 } bike_turn_mark;
 
 typedef struct bike_turn {
-  double lean, steer;           // rad
-  double speed;                 // m/s
-  double rider_offset;          // m      right of the file's place
-  double steer_torque;          // N m
-  double yaw_rate;              // rad/s
-  double radius;                // m      of the rear contact's circle; infinite when straight
-  double eps_max;               // 1/s    largest real part of an eigenvalue; < 0: self-stable
-  bike_eigenvalues eigenvalues; //        at constant energy, as bike_linearize
+  double lean, steer;               // rad
+  double speed;                     // m/s
+  double rider_offset;              // m      right of the file's place
+  double steer_torque;              // N m
+  double yaw_rate;                  // rad/s
+  double radius;                    // m      of the rear contact's circle; infinite when straight
+  double eps_max;                   // 1/s    largest real part of an eigenvalue; < 0: self-stable
+  bike_eigenvalues eigenvalues;     //        at constant energy, as bike_linearize
   double rear_normal, front_normal; // N  a wheel that is pulled on (< 0) has lifted: outside the
                                     //    model
   double rear_friction, front_friction; // horizontal / normal force that the ground must hold
-  double residual;              // rad/s^2, m/s^2  largest acceleration left at these numbers
-  int branch;                   //        0: the one through upright riding; others in the order
-                                //        found; -1: not known (lean and steer given)
-  bike_turn_mark mark;          //
-  bike_turn_variable fold;      //        of LARGEST and SMALLEST
+  double residual;         // rad/s^2, m/s^2  largest acceleration left at these numbers
+  bool main_family;        //        see below
+  bike_turn_mark mark;     //
+  bike_turn_variable fold; //        of LARGEST and SMALLEST
 } bike_turn;
+
+// The main family is what the paper's figure 2 shows: straight riding is reached from the turn by
+// moving the rider at constant speed, or along hands-free circles (offset zero). Without a rider:
+// the branch nearest to upright. Other families lean and steer far, mostly with friction near 1 and
+// beyond, and end without meeting straight riding.
 
 typedef struct bike_turn_def {
   bool given[BIKE_TURN_VARIABLES];   // one or two of them
@@ -63,11 +67,11 @@ enum { BIKE_MAX_TURNS = 64 };
 
 typedef struct bike_turns {
   int count;                       // solutions; 0 where only one variable is given
-  bike_turn turns[BIKE_MAX_TURNS]; // in rising order of lean, then of steer
+  bike_turn turns[BIKE_MAX_TURNS]; // the main family first, in rising order of lean, then of steer
   int mark_count;                  // folds and ends of the branches on which they lie
   bike_turn marks[BIKE_MAX_TURNS]; // in the same order
   int branch_count;                // branches traced
-  bool straight; // riding straight and upright, at whatever speed, answers the question too
+  bool straight;   // riding straight and upright, at whatever speed, answers the question too
   double residual; // where NO_CONVERGENCE: the accelerations, rad/s^2, that could not be removed
 } bike_turns;
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bicycle_import_internal.h"
+
+#include "runner_guard.h"
+
+#include <bicycle/error.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *name_or_number(char out[64], const char *name, int number) {
+  if (*name)
+    snprintf(out, 64, "'%.50s'", name);
+  else
+    snprintf(out, 64, "number %d", number);
+  return out;
+}
+
+const char *import_joint_name(char out[64], const mjModel *m, int joint) {
+  return name_or_number(out, m->names + m->name_jntadr[joint], joint);
+}
+
+const char *import_body_name(char out[64], const mjModel *m, int body) {
+  return name_or_number(out, m->names + m->name_bodyadr[body], body);
+}
+
+const double *import_axis(const import_view *v, int joint) {
+  return v->d->xaxis + 3 * joint;
+}
+
+const double *import_anchor(const import_view *v, int joint) {
+  return v->d->xanchor + 3 * joint;
+}
+
+void import_hub(double out[3], const import_view *v, int wheel) {
+  int body = v->map.wheel[wheel];
+  mju_rotVecMat(out, v->map.hub[wheel], v->d->xmat + 9 * body);
+  mju_addTo3(out, v->d->xpos + 3 * body);
+}
+
+// Bodies stand after their parents.
+static void assign_assemblies(import_view *v) {
+  v->assembly[0] = 0;
+  for (int b = 1; b < v->m->nbody; b++)
+    v->assembly[b] = v->m->body_jntnum[b] > 0 ? b : v->assembly[v->m->body_parentid[b]];
+}
+
+static void kinematics(void *argument) {
+  import_view *v = (import_view *)argument;
+  mj_resetData(v->m, v->d);
+  mj_kinematics(v->m, v->d);
+}
+
+static bool check_gravity(const mjModel *m, mjcf_error *error) {
+  const double *g = m->opt.gravity;
+  if (g[2] < 0 && hypot(g[0], g[1]) <= IMPORT_TOLERANCE * fabs(g[2])) return true;
+  return mjcf_fail(error,
+                   "not a bicycle: gravity (%g, %g, %g) must point along -z, to the ground z = 0",
+                   g[0], g[1], g[2]);
+}
+
+// What the analytic bicycle has no place for.
+static bool check_extras(const import_view *v, mjcf_error *error) {
+  const mjModel *m = v->m;
+  char name[64];
+  if (m->neq > 0)
+    return mjcf_fail(error, "not a bicycle: it has %d equality constraint%s", m->neq,
+                     m->neq == 1 ? "" : "s");
+  for (int j = 0; j < m->njnt; j++) {
+    int dof = m->jnt_dofadr[j];
+    const char *what = m->jnt_stiffness[j] != 0                        ? "stiffness"
+                       : m->dof_armature[dof] != 0                     ? "armature"
+                       : m->dof_frictionloss[dof] != 0                 ? "frictionloss"
+                       : m->dof_damping[dof] != 0 && j != v->map.steer ? "damping"
+                                                                       : NULL;
+    if (what)
+      return mjcf_fail(error,
+                       "not a bicycle of this model: joint %s has %s; only the steer may "
+                       "have damping",
+                       import_joint_name(name, m, j), what);
+  }
+  return true;
+}
+
+static bool find_all(bike_bicycle *out, import_view *v, mjcf_error *error) {
+  guard_report report;
+  assign_assemblies(v);
+  guard_call(&report, kinematics, v);
+  if (report.failed) return mjcf_fail(error, "%s", report.error);
+  return check_gravity(v->m, error) && import_find_joints(v, error) && check_extras(v, error) &&
+         import_find_wheels(v, error) && import_find_geometry(v, error) &&
+         import_lump(out, v, error);
+}
+
+bool import_bicycle(bike_bicycle *out, import_map *map, const mjModel *model, mjcf_error *error) {
+  import_view v = {.m = model, .d = mj_makeData(model)};
+  v.assembly = (int *)calloc((size_t)model->nbody, sizeof *v.assembly);
+  bool found = v.d && v.assembly;
+  if (!found)
+    mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+  else
+    found = find_all(out, &v, error);
+  if (found && map) *map = v.map;
+  if (v.d) mj_deleteData(v.d);
+  free(v.assembly);
+  return found;
+}

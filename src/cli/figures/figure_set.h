@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of one bicycle: pictures and tables kept in memory until all are made, then written
+// with a page that holds them.
+#ifndef BICYCLE_CLI_FIGURES_FIGURE_SET_H
+#define BICYCLE_CLI_FIGURES_FIGURE_SET_H
+
+#include "plot.h"
+#include "terminal/exit_code.h"
+
+#include <bicycle/bicycle.h>
+
+typedef struct figure {
+  const char *name; // file name without its end, static
+  char title[160];
+  char *svg, *csv;
+  size_t svg_size, csv_size;
+} figure;
+
+enum { MAX_FIGURES = 8 };
+
+typedef struct figure_set {
+  const bike_bicycle *bicycle;
+  int count;
+  figure figures[MAX_FIGURES];
+  char note[256]; // what could not be drawn, and why; may be empty
+} figure_set;
+
+// Adds a picture; draws `p` with the caption. Returns where its table goes: write it and close it.
+// NULL when out of memory. The figure's title is "NAME: title".
+FILE *figure_add(figure_set *set, const char *name, const char *title, plot *p,
+                 const char *caption);
+
+// Makes the folder if need be, and writes NAME.svg, NAME.csv of every figure and index.html. Each
+// file appears whole or not at all. On failure one line is printed.
+term_exit figure_write_all(const figure_set *set, const char *folder);
+
+void figure_set_free(figure_set *set);
+
+#endif

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engines beside the analytic one and MuJoCo's own integrators: linear, file, CVODE in MuJoCo.
+#include "support/near.h"
+#include "validate_support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+//---------------------------------- linear --------------------------------------------------------
+
+// The linear engine is the limit of small motions: the next terms are cubic.
+static void test_linear_is_the_limit(void **state) {
+  (void)state;
+  static const char *const signals[4] = {"lean", "steer", "yaw", "y"};
+  double worst[2][4];
+  for (int i = 0; i < 2; i++) {
+    char text[600];
+    snprintf(text, sizeof text,
+             "title: small\nbicycle: recumbent_damped\nstart: {speed: 13, lean_rate: %g}\n"
+             "duration: 3\nsample: 0.01\nreference: {engine: analytic}\n"
+             "candidate: {engine: linear}\n"
+             "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1, reason: test}\n",
+             i ? 1e-3 : 1e-2);
+    support_run *f = support_open(NULL, text);
+    support_play(f);
+    for (int k = 0; k < 4; k++)
+      worst[i][k] = support_find(&f->comparison, "L2", signals[k], "max")->value;
+    support_close(f);
+  }
+  for (int k = 0; k < 4; k++) assert_near(log10(worst[0][k] / worst[1][k]), 3, 0.1);
+}
+
+static void test_linear_falls(void **state) {
+  (void)state;
+  support_run *f = support_open(
+      NULL, "title: fall\nbicycle: benchmark\nstart: {speed: 1, lean: 0.1}\nduration: 3\n"
+            "sample: 0.01\nreference: {engine: linear}\ncandidate: {engine: linear}\n"
+            "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 0, reason: test}\n");
+  comparison *c = support_play(f);
+  assert_false(c->side[0].trace.complete);
+  assert_int_equal(c->side[0].trace.end_event.kind, BIKE_EVENT_LEAN_LIMIT);
+  assert_int_equal(c->verdict, VERDICT_AGREE);
+  support_close(f);
+}
+
+//---------------------------------- file ----------------------------------------------------------
+
+// A scenario whose candidate is a file beside it.
+static support_run *open_recording(const char *csv, const char *columns, problem *p,
+                                   term_exit *code) {
+  char text[900];
+  support_run *run = calloc(1, sizeof *run);
+  assert_non_null(run);
+  run->folder = support_folder();
+  free(support_write(run->folder, "ride.csv", csv));
+  snprintf(text, sizeof text,
+           "title: file\nbicycle: benchmark\nstart: {speed: 5, lean_rate: 0.1}\nduration: 0.3\n"
+           "sample: 0.1\nreference: {engine: analytic}\n"
+           "candidate: {engine: file, file: ride.csv%s}\n"
+           "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1e-12, reason: test}\n",
+           columns);
+  support_read_scenario(&run->scenario, run->folder, text);
+  *code = comparison_open(&run->comparison, &run->scenario, p);
+  if (*code == TERM_DONE) *code = comparison_run(&run->comparison, p);
+  return run;
+}
+
+// What the analytic engine says, as another program would have written it: degrees, steer to the
+// right, other names, rows between.
+static char *record(void) {
+  char *csv = NULL;
+  size_t size = 0;
+  support_run *f = support_open(
+      NULL, "title: record\nbicycle: benchmark\nstart: {speed: 5, lean_rate: 0.1}\nduration: 0.3\n"
+            "sample: 0.05\nreference: {engine: analytic}\ncandidate: {engine: analytic}\n"
+            "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 0, reason: test}\n");
+  comparison *c = support_play(f);
+  FILE *stream = open_memstream(&csv, &size);
+  assert_non_null(stream);
+  fputs("t [s],phi [deg],delta,unused\n", stream);
+  for (size_t k = 0; k < c->side[0].trace.count; k++) {
+    const bike_sample *s = &c->side[0].trace.rows[k].sample;
+    fprintf(stream, "%.17g,%.17g,%.17g,1\n", s->time, s->lean * 180 / 3.14159265358979323846,
+            -s->steer);
+  }
+  assert_int_equal(fclose(stream), 0);
+  support_close(f);
+  return csv;
+}
+
+static const char column_map[] =
+    ", columns: {time: 't [s]', lean: {column: 'phi [deg]', scale: 0.017453292519943295},"
+    " steer: {column: delta, scale: -1}}";
+
+static void test_recorded_ride_agrees(void **state) {
+  (void)state;
+  problem p = {""};
+  term_exit code;
+  char *csv = record();
+  support_run *f = open_recording(csv, column_map, &p, &code);
+  assert_string_equal(p.text, "");
+  assert_int_equal(code, TERM_DONE);
+  assert_string_equal(f->comparison.cause, "");
+  assert_below(support_find(&f->comparison, "L2", "steer", "max")->value, 1e-12);
+  for (size_t i = 0; i < f->comparison.measurements.count; i++)
+    assert_string_not_equal(f->comparison.measurements.items[i].signal, "yaw");
+  free(csv);
+  support_close(f);
+}
+
+static void test_wrong_recordings(void **state) {
+  (void)state;
+  static const struct {
+    const char *csv, *columns, *says;
+  } cases[] = {
+      {"time,lean\n0,0\n0.1,0\n0.2,0\n0.3,0\n", ", columns: {lean: roll}",
+       "ride.csv: there is no column 'roll' for 'lean'; there are: time, lean"},
+      {"t,lean\n0,0\n0.1,0\n", "", "there is no column 'time'"},
+      {"time,roll\n0,0\n0.1,0\n", "", "there is no column 'lean'"},
+      {"time,lean\n0,0\n0.1,0\n0.1,0\n0.2,0\n0.3,0\n", "",
+       "ride.csv:4: time: the time does not rise: 0.1 s after 0.1 s"},
+      {"time,lean\n0,0\n0.2,0\n0.1,0\n0.3,0\n", "", "ride.csv:4: time: the time does not rise"},
+      {"time,lean\n0,0\n0.1,0\n0.3,0\n", "", "ride.csv:4: there is no row at 0.2 s"},
+      {"time,lean\n0,0\n0.11,0\n0.21,0\n0.3,0\n", "", "ride.csv:3: there is no row at 0.1 s"},
+      {"time,lean\n0.1,0\n0.2,0\n0.3,0\n", "", "there is no row at 0 s"},
+      {"time,lean\n0,0\n0.1,nan\n0.2,0\n0.3,0\n", "", "ride.csv:3: lean: 'nan'"},
+      {"time,lean\n0,0\n0.1\n0.2,0\n0.3,0\n", "", "ride.csv:3: lean: the number is missing"},
+      {"time,lean\n0,0\n", "", "two rows at least, there is 1"},
+      {"time,lean\n", "", "two rows at least, there are 0"},
+      {"", "", "empty"},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    problem p = {""};
+    term_exit code;
+    support_run *f = open_recording(cases[i].csv, cases[i].columns, &p, &code);
+    assert_int_equal(code, TERM_USAGE);
+    if (!strstr(p.text, cases[i].says)) fail_msg("'%s' does not say '%s'", p.text, cases[i].says);
+    support_close(f);
+  }
+}
+
+static void test_short_recording_ends_early(void **state) {
+  (void)state;
+  problem p = {""};
+  term_exit code;
+  support_run *f = open_recording("time,lean\n0,0\n0.1,0\n", "", &p, &code);
+  assert_int_equal(code, TERM_DONE);
+  const measurement *end = support_find(&f->comparison, "L2", "end_time", "difference");
+  assert_near(end->value, 0.2, 1e-12);
+  assert_non_null(strstr(end->detail, "file to 0.1 s"));
+  assert_int_equal(f->comparison.verdict, VERDICT_FAIL);
+  support_close(f);
+}
+
+// A million rows are read and passed over within a second or two.
+static void test_million_rows(void **state) {
+  (void)state;
+  char *csv = NULL;
+  size_t size = 0;
+  problem p = {""};
+  term_exit code;
+  FILE *stream = open_memstream(&csv, &size);
+  assert_non_null(stream);
+  fputs("time,speed\n", stream);
+  for (int k = 0; k <= 1000000; k++) fprintf(stream, "%.7f,5\n", k * 1e-6);
+  assert_int_equal(fclose(stream), 0);
+  support_run *f = open_recording(csv, "", &p, &code);
+  assert_int_equal(code, TERM_DONE);
+  assert_int_equal(f->comparison.side[CANDIDATE].trace.count, 4);
+  free(csv);
+  support_close(f);
+}
+
+//---------------------------------- cvode ---------------------------------------------------------
+
+// The same model by another integrator: no step of MuJoCo's shows, with either root, and the work
+// of the damper is counted.
+static void test_cvode(void **state) {
+  (void)state;
+  static const char *const roots[2] = {"hinge", "free"};
+  for (int i = 0; i < 2; i++) {
+    char text[700];
+    snprintf(
+        text, sizeof text,
+        "title: cvode\nbicycle: recumbent_damped\nstart: {speed: 13, lean_rate: 0.1}\n"
+        "duration: 2\nsample: 0.01\ninstants: {count: 0}\nreference: {engine: analytic}\n"
+        "candidate: {engine: mujoco, integrator: cvode, root: %s, timestep: 1e-2}\ngates:\n"
+        "  - {layer: L2, metric: max, signals: [lean, steer, yaw], limit: 1e-11, reason: test}\n"
+        "  - {layer: L3, metric: balance_max, limit: 1e-12, reason: test}\n",
+        roots[i]);
+    support_run *f = support_open(NULL, text);
+    comparison *c = support_play(f);
+    assert_string_equal(c->cause, "");
+    assert_true(support_find(c, "L3", "mujoco.energy", "spread_percent")->value > 1e-7);
+    assert_true(c->side[CANDIDATE].trace.evaluations > c->side[CANDIDATE].trace.steps);
+    support_close(f);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_linear_is_the_limit),
+      cmocka_unit_test(test_linear_falls),
+      cmocka_unit_test(test_recorded_ride_agrees),
+      cmocka_unit_test(test_wrong_recordings),
+      cmocka_unit_test(test_short_recording_ends_early),
+      cmocka_unit_test(test_million_rows),
+      cmocka_unit_test(test_cvode),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

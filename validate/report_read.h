@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The document report.json as its views read it: a saved report or one just made, there is no
+// difference.
+#ifndef VALIDATE_REPORT_READ_H
+#define VALIDATE_REPORT_READ_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+// A gate of a scenario. Texts belong to the document and are never NULL.
+typedef struct report_gate {
+  const char *layer, *signal, *metric, *unit, *detail, *reason;
+  double value, limit; // NaN for null
+  double time;         // s  NaN without
+  bool pass;
+  const char *change; // "better", "same", "worse" than the baseline; "" without one
+  double before;      // the baseline's value; NaN without
+  size_t index;       // within the scenario
+} report_gate;
+
+// Empty text, NaN for what is missing or of another type.
+const char *report_text(const json_t *object, const char *key);
+double report_real(const json_t *object, const char *key);
+
+// Number of items of an array, 0 for anything else.
+size_t report_count(const json_t *object, const char *key);
+
+report_gate report_gate_at(const json_t *entry, size_t index);
+
+// Value over limit: 0 for a value of zero, infinite for NaN and beyond a limit of zero.
+double report_gate_use(const report_gate *g);
+
+// All gates of a scenario, failures first, then by falling use; free it. NULL when out of memory.
+report_gate *report_gates_by_margin(const json_t *entry, size_t *count);
+
+size_t report_failed_gates(const json_t *entry);
+
+// How many gates of a scenario changed in that way against the baseline.
+size_t report_changed_gates(const json_t *entry, const char *change);
+
+// "agree" or anything else.
+bool report_agrees(const json_t *object);
+
+// The engine of a scenario that plays a role: "reference", "candidate"; NULL if there is none.
+const json_t *report_engine(const json_t *entry, const char *role);
+
+// "all 85 gates hold", "2 of 85 gates fail", over all scenarios of a document.
+void report_describe_counts(char *out, size_t size, const json_t *document);
+
+#endif
