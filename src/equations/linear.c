@@ -10,49 +10,68 @@
 
 static const double STEP = 1e-100;
 
-enum { PHI, KAPPA, PHI_RATE, KAPPA_RATE, SPEED, STEER_TORQUE, ROLL_TORQUE, RIDER, VARIABLES };
+enum { PHI, KAPPA, PHI_RATE, KAPPA_RATE, SPEED, VARIABLES };
+enum { INPUTS = 3 };
 
 typedef struct perturbed {
   start from;
   real x[VARIABLES];
-  double w, w1;
+  load in;
 } perturbed;
 
 static perturbed perturbed_state(const bike_state *s, const bike_input *in, double beta_r) {
   return (perturbed){.from = {sin(beta_r), cos(beta_r)},
-                     .x = {s->steer, s->lean, s->steer_rate, s->lean_rate, s->speed,
-                           in->steer_torque, in->roll_torque, in->rider_acceleration},
-                     .w = in->rider_offset,
-                     .w1 = in->rider_velocity};
+                     .x = {s->steer, s->lean, s->steer_rate, s->lean_rate, s->speed},
+                     .in = {in->steer_torque, in->roll_torque, in->rider_offset, in->rider_velocity,
+                            in->rider_acceleration}};
 }
 
-// The instant with variable `which` moved by i STEP; which < 0: none.
-static load solve_perturbed(instant *now, const kernel_model *model, perturbed at, int which) {
-  if (which >= 0) at.x[which] += I * STEP;
+// The instant with variable `which` moved by i STEP.
+static void solve_perturbed(instant *now, const kernel_model *model, perturbed at, int which) {
+  at.x[which] += I * STEP;
   const real *x = at.x;
-  load in = {x[STEER_TORQUE], x[ROLL_TORQUE], at.w, at.w1, x[RIDER]};
   form u = {x[PHI_RATE], x[KAPPA_RATE], x[SPEED]};
-  solve_instant(now, model, at.from, x[PHI], x[KAPPA], u, &in);
-  return in;
+  solve_instant(now, model, at.from, x[PHI], x[KAPPA], u, &at.in);
 }
 
 static double derivative(real value) {
   return cimag(value) / STEP;
 }
 
-// Rows (phi'', kappa''), columns of all variables, and the gradient of the energy.
-static void gradients(double J[2][VARIABLES], double E[VARIABLES], const bike_model *model,
-                      const perturbed *at) {
+typedef struct gradients {
+  double J[2][VARIABLES]; // of phi'', kappa''
+  double E[VARIABLES];    // of the energy
+  double B[2][INPUTS];    // of phi'', kappa'' over steer torque, roll torque, rider's acceleration
+} gradients;
+
+// Accelerations are linear in the inputs: M u' = f. M is that of any perturbed instant: only its
+// imaginary part, which is not used, knows of the perturbation.
+static void differentiate_inputs(double B[2][INPUTS], const instant *now, const kernel_model *m) {
+  wrench push = {0};
+  push_rider(&push, &now->k.body, m, (vec){1, 0, 0});
+  form rider = along_motions(&push, &now->at, &now->forms, m->geometry.R_r);
+  const real f[INPUTS][3] = {{1, 0, 0}, {0, 1, 0}, {-rider.phi, -rider.kap, -rider.v}};
+  kane k = now->k;
+  for (int j = 0; j < INPUTS; j++) {
+    memcpy(k.f, f[j], sizeof k.f);
+    form response = solved(&k);
+    B[0][j] = creal(response.phi) + 0.0; // no -0
+    B[1][j] = creal(response.kap) + 0.0;
+  }
+}
+
+static void differentiate(gradients *d, const bike_model *model, const perturbed *at) {
   kernel_model m;
   kernel_model_of(&m, model);
+  instant now;
   for (int j = 0; j < VARIABLES; j++) {
-    instant now;
-    load in = solve_perturbed(&now, &m, *at, j);
-    J[0][j] = derivative(now.acceleration.phi);
-    J[1][j] = derivative(now.acceleration.kap);
-    energy e = energy_of(&now, &m, &in);
-    E[j] = derivative(e.kinetic + e.potential);
+    solve_perturbed(&now, &m, *at, j);
+    d->J[0][j] = derivative(now.acceleration.phi);
+    d->J[1][j] = derivative(now.acceleration.kap);
+    energy e = energy_of(&now, &m, &at->in);
+    d->E[j] = derivative(e.kinetic + e.potential);
   }
+  differentiate_inputs(d->B, &now, &m);
 }
 
 int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *state,
@@ -65,18 +84,18 @@ int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *
   if (code) return code;
 
   perturbed at = perturbed_state(state, input, now.beta_r);
-  double J[2][VARIABLES], E[VARIABLES];
-  gradients(J, E, model, &at);
+  gradients d;
+  differentiate(&d, model, &at);
   bike_linear linear = {0};
   linear.A[2] = linear.A[7] = 1; // phi' = phi', kappa' = kappa'
   for (int i = 0; i < 2; i++) {
     // dv = -E_j/E_v dx_j at constant energy; by symmetry straight riding does not feel dv, and
     // there E_v may be zero
-    double slaved = J[i][SPEED];
-    if (slaved != 0 && E[SPEED] == 0) return BIKE_ERROR_SINGULAR;
-    if (slaved != 0) slaved /= E[SPEED];
-    for (int j = 0; j < 4; j++) linear.A[4 * (i + 2) + j] = J[i][j] - slaved * E[j];
-    for (int j = 0; j < 3; j++) linear.B[3 * (i + 2) + j] = J[i][STEER_TORQUE + j];
+    double slaved = d.J[i][SPEED];
+    if (slaved != 0 && d.E[SPEED] == 0) return BIKE_ERROR_SINGULAR;
+    if (slaved != 0) slaved /= d.E[SPEED];
+    for (int j = 0; j < 4; j++) linear.A[4 * (i + 2) + j] = d.J[i][j] - slaved * d.E[j];
+    for (int j = 0; j < INPUTS; j++) linear.B[INPUTS * (i + 2) + j] = d.B[i][j];
   }
   *out = linear;
   return BIKE_OK;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel over complex numbers: the imaginary part carries an exact derivative (complex step).
+// The kernel over complex numbers for derivatives by complex step: the imaginary part carries an
+// exact first derivative. It is so small (see linear.c) that functions need its first order only.
 #ifndef BICYCLE_NUMBER_COMPLEX_H
 #define BICYCLE_NUMBER_COMPLEX_H
 
 #include <complex.h>
+#include <math.h>
 
 typedef double complex real;
 
@@ -12,12 +14,15 @@ static inline real real_of(double x) {
 }
 
 static inline real real_sqrt(real z) {
-  return csqrt(z);
+  double root = sqrt(creal(z));
+  return CMPLX(root, 0.5 * cimag(z) / root);
 }
 
 static inline void real_sincos(real z, real *s, real *c) {
-  *s = csin(z);
-  *c = ccos(z);
+  double sine, cosine;
+  sincos(creal(z), &sine, &cosine);
+  *s = CMPLX(sine, cosine * cimag(z));
+  *c = CMPLX(cosine, -sine * cimag(z));
 }
 
 #include "kernel/generic_model.h"

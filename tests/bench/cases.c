@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases.h"
 
+#include "point.h"
 #include "rolling.h"
 #include "runner.h"
 #include "terminal/message.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 struct bench_cases {
@@ -12,6 +14,7 @@ struct bench_cases {
   bike_state state;
   runner *ride;         // its model and data are MuJoCo's contestants
   mjData *start;        // a copy of the state to go back to
+  bench_row row;        // of a map, where the bicycle has a rider
   volatile double sink; // keeps results alive
 };
 
@@ -32,6 +35,11 @@ bench_cases *bench_cases_create(const bike_bicycle *bicycle, const bike_state *s
   c->ride = runner_create(bicycle, &options, &status, &error);
   if (!c->ride || runner_start(c->ride, state, &error)) {
     term_message("%s", error.text);
+    bench_cases_free(c);
+    return NULL;
+  }
+  if (!bench_row_begin(&c->row, &c->model)) {
+    term_message("%s: no stationary turn to start from: a rider is needed", bicycle->name);
     bench_cases_free(c);
     return NULL;
   }
@@ -103,4 +111,14 @@ void bench_contests(bench_contest out[BENCH_CONTESTS], bench_cases *c) {
                            .theirs = {"mj_step", free_steps, c},
                            .repeats = 200,
                            .at_most = 1.8};
+  out[2] = (bench_contest){.question = "full (speed, lean) point / right-hand side",
+                           .ours = {"bike_turn_near", bench_exact_points, &c->row},
+                           .theirs = {"bike_rates_of", right_hand_side, c},
+                           .repeats = 200,
+                           .at_most = 70};
+  out[3] = (bench_contest){.question = "full point / by finite differences and dgeev",
+                           .ours = {"bike_turn_near", bench_exact_points, &c->row},
+                           .theirs = {"finite differences", bench_difference_points, &c->row},
+                           .repeats = 200,
+                           .at_most = INFINITY};
 }

@@ -7,6 +7,8 @@
 #include "terminal/progress.h"
 #include "terminal/table.h"
 
+#include <math.h>
+
 typedef struct options {
   const char *bicycle;
   bool json;
@@ -45,7 +47,10 @@ static void add_row(term_table *table, const bench_contest *c, const bench_resul
   snprintf(theirs, sizeof theirs, "%.3g us", 1e6 * r->theirs);
   snprintf(ratio, sizeof ratio, "%.3f", r->ratio);
   snprintf(spread, sizeof spread, "%.3f .. %.3f", r->low, r->high);
-  snprintf(limit, sizeof limit, "%.3g", c->at_most);
+  if (isfinite(c->at_most))
+    snprintf(limit, sizeof limit, "%.3g", c->at_most);
+  else
+    snprintf(limit, sizeof limit, "-");
   const char *cells[] = {c->question, ours, theirs, ratio, spread, limit};
   term_table_add(table, r->ratio <= c->at_most ? TERM_PLAIN : TERM_BAD, cells);
 }
@@ -74,11 +79,11 @@ int main(int argc, char **argv) {
                                    parse,
                                    "[FILE]",
                                    "What a bicycle costs, in units of MuJoCo's work on the same "
-                                   "bicycle (default: the benchmark bicycle).",
+                                   "bicycle, which needs a rider (default: the roadster).",
                                    NULL,
                                    NULL,
                                    NULL};
-  options o = {.bicycle = "benchmark"};
+  options o = {.bicycle = "roadster"};
   term_begin("bicycle-bench");
   term_parse(&ARGP, EXAMPLE, argc, argv, &o);
   bike_bicycle bicycle;

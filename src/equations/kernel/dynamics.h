@@ -177,6 +177,13 @@ static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, ve
   n->torque = add(n->torque, add(scaled(phi, torque), cross(b->foot, force)));
 }
 
+// Adds what an acceleration of the rider relative to the frame needs.
+static inline void push_rider(wrench *n, const masses *b, const kernel_model *m, vec relative) {
+  vec push = scaled(m->rider_mass, relative);
+  n->force = add(n->force, push);
+  n->torque = add(n->torque, cross(b->rider, push));
+}
+
 // Force and torque needed for `rest`, the wheels' spin-up left out.
 static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, const load *in) {
   const masses *b = &k->body;
@@ -198,9 +205,15 @@ static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, 
   n->steer += dot(across, H_f);
   // the rider relative to the frame: 2 w' w x e_N + w'' e_N
   k->rider_rest = (vec){in->w2, 2.0 * in->w1 * w.z, -2.0 * in->w1 * w.y};
-  vec push = scaled(m->rider_mass, k->rider_rest);
-  n->force = add(n->force, push);
-  n->torque = add(n->torque, cross(b->rider, push));
+  push_rider(n, b, m, k->rider_rest);
+}
+
+// A wrench along the motions of phi', kappa', v.
+static inline form along_motions(const wrench *n, const position *g, const rate_forms *q, real R) {
+  real B = n->torque.x, X = n->force.y, K = R * n->force.x + n->torque.y;
+  real Y = R * g->s_kap * X + g->c_kap * n->torque.z - g->s_kap * B;
+  return (form){q->br.phi * B + q->yaw.phi * Y + n->steer, q->br.kap * B + q->yaw.kap * Y + K,
+                q->yaw.v * Y + X};
 }
 
 // f: torques from outside less what the accelerations at u' = 0 need along each motion. beta_r''
@@ -209,19 +222,14 @@ static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, 
 static inline void forces_along(kane *k, const kernel_model *m, const position *g,
                                 const rate_forms *q, const rates *r, const bias *b,
                                 const load *in) {
-  const wrench *n = &k->need;
-  real R = m->geometry.R_r;
-  real B = n->torque.x, X = n->force.y, K = R * n->force.x + n->torque.y;
-  real Y = R * g->s_kap * X + g->c_kap * n->torque.z - g->s_kap * B;
+  form need = along_motions(&k->need, g, q, m->geometry.R_r);
   real up_r = m->rear.spin_inertia * b->spin_r, up_f = m->front.spin_inertia * b->spin_f;
   form P = k->along_B, S = k->along_Y;
-  k->f[0] = in->steer_torque - m->steer_damping * r->u.phi -
-            (q->br.phi * B + q->yaw.phi * Y + n->steer) -
+  k->f[0] = in->steer_torque - m->steer_damping * r->u.phi - need.phi -
             (P.phi * b->br + S.phi * b->yaw + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
-  k->f[1] = in->roll_torque - (q->br.kap * B + q->yaw.kap * Y + K) -
+  k->f[1] = in->roll_torque - need.kap -
             (P.kap * b->br + S.kap * b->yaw + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
-  k->f[2] =
-      -(q->yaw.v * Y + X) - (P.v * b->br + S.v * b->yaw + q->spin_r.v * up_r + q->spin_f.v * up_f);
+  k->f[2] = -need.v - (P.v * b->br + S.v * b->yaw + q->spin_r.v * up_r + q->spin_f.v * up_f);
 }
 
 // u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry. M is ready long before f.
