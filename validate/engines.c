@@ -4,7 +4,8 @@
 #include <string.h>
 #include <time.h>
 
-static const engine *const engines[] = {&engine_analytic, &engine_mujoco, &engine_linear, &engine_file};
+static const engine *const engines[] = {&engine_analytic, &engine_mujoco, &engine_linear,
+                                        &engine_file};
 
 enum { ENGINE_COUNT = sizeof engines / sizeof engines[0] };
 
