@@ -42,7 +42,7 @@ static void put_header(FILE *out, const mjcf_plan *plan) {
     fputs(
         "     The wheels roll where libmujoco_rolling.so is loaded; elsewhere they fall through.\n",
         out);
-  for (int i = 0; i < MJCF_BODIES; i++) {
+  for (int i = 0; i < plan->bodies; i++) {
     if (!plan->body[i].placeholder) continue;
     if (!any)
       fputs(
@@ -65,7 +65,8 @@ static void put_option(FILE *out, const mjcf_plan *plan) {
   const double gravity[3] = {0, 0, -plan->bicycle->gravity};
   fputs("  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n", out);
   // Room for a user's own limits and contacts; MuJoCo's default of megabytes costs 3 ms a model.
-  fputs("  <size njmax=\"100\" nconmax=\"25\" nstack=\"32768\"/>\n", out);
+  fprintf(out, "  <size njmax=\"100\" nconmax=\"25\" nstack=\"32768\"%s/>\n",
+          plan->options->moving_rider ? " nuserdata=\"3\"" : "");
   fprintf(out, "  <option integrator=\"%s\"", integrators[plan->options->integrator]);
   mjcf_put(out, "timestep", &plan->options->timestep, 1);
   mjcf_put(out, "gravity", gravity, 3);
@@ -86,7 +87,12 @@ static void put_custom(FILE *out, const mjcf_plan *plan) {
   fputs("/>\n      <element objtype=\"body\" objname=\"front_wheel\"", out);
   mjcf_put(out, "prm", &g->R_f, 1);
   fputs("/>\n    </tuple>\n", out);
-  for (int i = 0; i < MJCF_BODIES; i++) {
+  if (plan->options->moving_rider)
+    fputs("    <tuple name=\"rolling_driven\">\n"
+          "      <element objtype=\"joint\" objname=\"rider\" prm=\"0\"/>\n"
+          "    </tuple>\n",
+          out);
+  for (int i = 0; i < plan->bodies; i++) {
     if (!plan->body[i].placeholder) continue;
     fprintf(out, "    <numeric name=\"inertia:%s\" size=\"6\"", plan->body[i].name);
     mjcf_put(out, "data", plan->body[i].inertia, 6);
@@ -95,14 +101,17 @@ static void put_custom(FILE *out, const mjcf_plan *plan) {
   fputs("  </custom>\n", out);
 }
 
-void mjcf_indent(FILE *out, bike_assembly body, int deeper) {
-  static const int depth[MJCF_BODIES] = {
-      [BIKE_REAR_FRAME] = 2, [BIKE_REAR_WHEEL] = 3, [BIKE_FRONT_FRAME] = 3, [BIKE_FRONT_WHEEL] = 4};
+void mjcf_indent(FILE *out, int body, int deeper) {
+  static const int depth[MJCF_BODIES] = {[BIKE_REAR_FRAME] = 2,
+                                         [BIKE_REAR_WHEEL] = 3,
+                                         [BIKE_FRONT_FRAME] = 3,
+                                         [BIKE_FRONT_WHEEL] = 4,
+                                         [MJCF_RIDER] = 3};
   fprintf(out, "%*s", 2 * (depth[body] + deeper), "");
 }
 
 // Opens <body> with its place in the parent, and says what it weighs.
-static void open_body(FILE *out, const mjcf_plan *plan, bike_assembly assembly,
+static void open_body(FILE *out, const mjcf_plan *plan, int assembly,
                       const double parent_origin[3]) {
   const mjcf_body *body = &plan->body[assembly];
   double place[3];
@@ -120,7 +129,7 @@ static void open_body(FILE *out, const mjcf_plan *plan, bike_assembly assembly,
   fputs("/>\n", out);
 }
 
-static void close_body(FILE *out, bike_assembly assembly) {
+static void close_body(FILE *out, int assembly) {
   mjcf_indent(out, assembly, 0);
   fputs("</body>\n", out);
 }
@@ -155,7 +164,7 @@ static void put_tread(FILE *out, const mjcf_plan *plan, bike_assembly wheel, dou
   fputs("/>\n", out);
 }
 
-static void put_shape(FILE *out, const mjcf_plan *plan, bike_assembly assembly) {
+static void put_shape(FILE *out, const mjcf_plan *plan, int assembly) {
   if (plan->options->visible) mjcf_put_shape(out, plan, assembly);
 }
 
@@ -183,6 +192,24 @@ static void put_front(FILE *out, const mjcf_plan *plan) {
   close_body(out, BIKE_FRONT_FRAME);
 }
 
+// To the right is -y; the place in the file, or rider_offset beside it, is qpos 0.
+static void put_rider(FILE *out, const mjcf_plan *plan) {
+  if (!plan->options->moving_rider) return;
+  open_body(out, plan, MJCF_RIDER, plan->body[BIKE_REAR_FRAME].origin);
+  mjcf_indent(out, MJCF_RIDER, 1);
+  fputs("<joint name=\"rider\" type=\"slide\" axis=\"0 -1 0\"/>\n", out);
+  put_shape(out, plan, MJCF_RIDER);
+  close_body(out, MJCF_RIDER);
+}
+
+// MuJoCo integrates the work of the rider's drive as an activation (rolling.h).
+static void put_actuator(FILE *out, const mjcf_plan *plan) {
+  if (!plan->options->moving_rider) return;
+  fputs("  <actuator>\n    <general name=\"rolling:rider:work\" joint=\"rider\" dyntype=\"user\" "
+        "gainprm=\"0\"/>\n  </actuator>\n",
+        out);
+}
+
 static void put_world(FILE *out, const mjcf_plan *plan) {
   static const double ground[3] = {0, 0, 0};
   fputs("  <worldbody>\n", out);
@@ -195,16 +222,18 @@ static void put_world(FILE *out, const mjcf_plan *plan) {
   put_shape(out, plan, BIKE_REAR_FRAME);
   put_wheel(out, plan, BIKE_REAR_WHEEL);
   put_front(out, plan);
+  put_rider(out, plan);
   close_body(out, BIKE_REAR_FRAME);
   fputs("  </worldbody>\n", out);
 }
 
 static void put_key(FILE *out, const mjcf_plan *plan, const mjcf_key *key) {
   if (!key) return;
-  int nq = plan->options->root == MJCF_ROOT_FREE ? 10 : 9;
+  int rider = plan->options->moving_rider;
+  int nq = (plan->options->root == MJCF_ROOT_FREE ? 10 : 9) + rider;
   fputs("  <keyframe>\n    <key name=\"test\"", out);
   mjcf_put(out, "qpos", key->qpos, nq);
-  mjcf_put(out, "qvel", key->qvel, 9);
+  mjcf_put(out, "qvel", key->qvel, 9 + rider);
   fputs("/>\n  </keyframe>\n", out);
 }
 
@@ -221,6 +250,7 @@ char *mjcf_text(const bike_bicycle *bicycle, const mjcf_options *options, const 
   if (options->visible) mjcf_put_assets(out);
   put_custom(out, &plan);
   put_world(out, &plan);
+  put_actuator(out, &plan);
   put_key(out, &plan, key);
   fputs("</mujoco>\n", out);
   bool whole = !ferror(out);

@@ -10,6 +10,8 @@
 //   root        the free joint                               root MJCF_ROOT_FREE
 //   steer       about the upward steering axis: left
 //   rear_spin, front_spin   about +y: rolling forward
+//   rider       slide to the right of body rider, on the rear frame; with a moving rider only. Its
+//               work is the activation of actuator rolling:rider:work
 // so that lean = roll, and the paper's speed is v = R_r (pitch' + rear_spin').
 #ifndef BICYCLE_MJCF_H
 #define BICYCLE_MJCF_H
@@ -34,10 +36,12 @@ typedef struct mjcf_options {
   double contact_time;        // s   time constant of contacts (solref); 0: two timesteps, which is
                               //     the least that MuJoCo takes
   double rider_offset;        // m   the rider sits this far to the right of the place in the file
+  bool moving_rider;          //     the rider, on a slide to the right, is a driven joint
+                              //     (rolling.h) that follows userdata 0..2; exact rolling only
   bool visible;               //     with geometry that looks like a bicycle, lights, cameras
 } mjcf_options;
 
-// Hinge root, exact rolling, RK4 with 1 ms, rider at his place, visible.
+// Hinge root, exact rolling, RK4 with 1 ms, rider sitting still at his place, visible.
 mjcf_options mjcf_default_options(void);
 
 // What went wrong, in one line without a full stop.
@@ -50,15 +54,15 @@ typedef struct mjcf_error {
 bool mjcf_fail(mjcf_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // The state of the keyframe `test`, from which mujoco-testspeed and the plugin start.
-enum { MJCF_MAX_QPOS = 10, MJCF_MAX_QVEL = 9 };
+enum { MJCF_MAX_QPOS = 11, MJCF_MAX_QVEL = 10 };
 typedef struct mjcf_key {
-  double qpos[MJCF_MAX_QPOS]; // nq = 9 (hinge root) or 10
-  double qvel[MJCF_MAX_QVEL]; // nv = 9
+  double qpos[MJCF_MAX_QPOS]; // nq = 9 (hinge root) or 10, one more with a moving rider
+  double qvel[MJCF_MAX_QVEL]; // nv = 9, or 10
 } mjcf_key;
 
 // MJCF of the bicycle, every number with 17 digits; free() it. `key` may be NULL: no keyframe.
 // NULL with a text in `error` if the bicycle breaks a rule (bike_check), if there is no rider to
-// displace, or if MuJoCo cannot hold it (a wheel without inertia about its axle).
+// displace or move, or if MuJoCo cannot hold it (a wheel without inertia about its axle).
 char *mjcf_text(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,
                 mjcf_error *error);
 

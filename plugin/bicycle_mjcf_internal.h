@@ -7,7 +7,8 @@
 
 #include <stdio.h>
 
-enum { MJCF_BODIES = 4 }; // numbered as bike_assembly
+// Numbered as bike_assembly; the rider is a body of his own only where he moves.
+enum { MJCF_RIDER = 4, MJCF_BODIES };
 
 // One rigid body of the model: the parts of an assembly lumped. Axes (forward, left, up).
 typedef struct mjcf_body {
@@ -29,6 +30,7 @@ typedef struct mjcf_plan {
   double axis[3];   // unit, upwards along the steering axis (e_S)
   double across[3]; // unit, forwards and square to it in the plane of symmetry (e_p)
   mjcf_body body[MJCF_BODIES];
+  int bodies; // without the rider, or all
 } mjcf_plan;
 
 // Checks the bicycle and the options and fills the plan, which keeps both pointers.
@@ -45,12 +47,12 @@ bool mjcf_make_legal(double moments[3]);
 void mjcf_put(FILE *out, const char *name, const double *values, int count);
 
 // The blanks before a line of a body, or of what stands `deeper` in it.
-void mjcf_indent(FILE *out, bike_assembly body, int deeper);
+void mjcf_indent(FILE *out, int body, int deeper);
 
 // What is only looked at: colours; lights and cameras; the geoms of one body.
 void mjcf_put_assets(FILE *out);
 void mjcf_put_scenery(FILE *out);
 void mjcf_put_cameras(FILE *out);
-void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body);
+void mjcf_put_shape(FILE *out, const mjcf_plan *plan, int body);
 
 #endif

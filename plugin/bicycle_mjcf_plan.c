@@ -40,7 +40,10 @@ static bool check_options(const bike_bicycle *bicycle, const mjcf_options *optio
     return mjcf_fail(error, "the time constant of contacts must not be negative, and at most 1 s");
   if (!isfinite(options->rider_offset))
     return mjcf_fail(error, "the rider offset is not a finite number");
-  if (options->rider_offset == 0) return true;
+  // MuJoCo solves its contacts after the drive: the rider's work would not be exact.
+  if (options->moving_rider && options->rolling != MJCF_ROLLING_EXACT)
+    return mjcf_fail(error, "a moving rider needs exact rolling");
+  if (options->rider_offset == 0 && !options->moving_rider) return true;
   for (int i = 0; i < bicycle->part_count; i++)
     if (bicycle->parts[i].rider) return true;
   return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_NO_RIDER));
@@ -50,7 +53,7 @@ static bool check_options(const bike_bicycle *bicycle, const mjcf_options *optio
 // which lies L_r e_p - L_s e_S from the rear hub.
 static void place_bodies(mjcf_plan *plan) {
   static const char *const names[MJCF_BODIES] = {"rear_frame", "rear_wheel", "front_frame",
-                                                 "front_wheel"};
+                                                 "front_wheel", "rider"};
   const bike_geometry *g = &plan->bicycle->geometry;
   const double *e_p = plan->across, *e_S = plan->axis;
   for (int i = 0; i < MJCF_BODIES; i++) plan->body[i].name = names[i];
@@ -58,6 +61,7 @@ static void place_bodies(mjcf_plan *plan) {
     double hub = k == 2 ? g->R_r : 0;
     double foot = hub + g->L_r * e_p[k] - g->L_s * e_S[k];
     plan->body[BIKE_REAR_FRAME].origin[k] = plan->body[BIKE_REAR_WHEEL].origin[k] = hub;
+    plan->body[MJCF_RIDER].origin[k] = hub;
     plan->body[BIKE_FRONT_FRAME].origin[k] = foot;
     plan->body[BIKE_FRONT_WHEEL].origin[k] = foot + g->L_f * e_p[k];
   }
@@ -82,10 +86,15 @@ static void add_point_mass(double inertia[6], double mass, const double r[3]) {
   inertia[5] -= mass * r[1] * r[2];
 }
 
+static mjcf_body *body_of(mjcf_plan *plan, const bike_part *part) {
+  bool apart = part->rider && plan->options->moving_rider;
+  return &plan->body[apart ? (int)MJCF_RIDER : (int)part->assembly];
+}
+
 static void lump(mjcf_plan *plan) {
   const bike_bicycle *b = plan->bicycle;
   for (int i = 0; i < b->part_count; i++) {
-    mjcf_body *body = &plan->body[b->parts[i].assembly];
+    mjcf_body *body = body_of(plan, &b->parts[i]);
     double centre[3];
     part_centre(centre, plan, &b->parts[i]);
     body->mass += b->parts[i].mass;
@@ -95,7 +104,7 @@ static void lump(mjcf_plan *plan) {
     for (int k = 0; k < 3 && plan->body[i].mass > 0; k++)
       plan->body[i].centre[k] /= plan->body[i].mass;
   for (int i = 0; i < b->part_count; i++) {
-    mjcf_body *body = &plan->body[b->parts[i].assembly];
+    mjcf_body *body = body_of(plan, &b->parts[i]);
     double arm[3];
     part_centre(arm, plan, &b->parts[i]);
     for (int k = 0; k < 3; k++) arm[k] -= body->centre[k];
@@ -107,7 +116,7 @@ static void lump(mjcf_plan *plan) {
 static bool make_compilable(mjcf_plan *plan, mjcf_error *error) {
   // A frame without parts still is a body: its mass is below the last digit of any bicycle's.
   static const double no_mass = 1e-14;
-  for (int i = 0; i < MJCF_BODIES; i++) {
+  for (int i = 0; i < plan->bodies; i++) {
     mjcf_body *body = &plan->body[i];
     bool wheel = i == BIKE_REAR_WHEEL || i == BIKE_FRONT_WHEEL;
     if (wheel && !(body->inertia[1] > 0))
@@ -123,6 +132,7 @@ static bool make_compilable(mjcf_plan *plan, mjcf_error *error) {
 bool mjcf_plan_init(mjcf_plan *plan, const bike_bicycle *bicycle, const mjcf_options *options,
                     mjcf_error *error) {
   *plan = (mjcf_plan){.bicycle = bicycle, .options = options};
+  plan->bodies = options->moving_rider ? MJCF_BODIES : MJCF_RIDER;
   if (!check_bicycle(bicycle, error) || !check_options(bicycle, options, error)) return false;
   int code = bike_upright_position(&plan->upright, &bicycle->geometry);
   if (code != BIKE_OK) return mjcf_fail(error, "%s", bike_error_string(code));
@@ -140,6 +150,6 @@ int mjcf_placeholder_count(const bike_bicycle *bicycle) {
   mjcf_error error;
   if (!mjcf_plan_init(&plan, bicycle, &options, &error)) return 0;
   int count = 0;
-  for (int i = 0; i < MJCF_BODIES; i++) count += plan.body[i].placeholder;
+  for (int i = 0; i < plan.bodies; i++) count += plan.body[i].placeholder;
   return count;
 }

@@ -10,7 +10,7 @@
 typedef struct pen {
   FILE *out;
   const mjcf_plan *plan;
-  bike_assembly body;
+  int body;
   int decimals; // of places, m
 } pen;
 
@@ -264,6 +264,11 @@ static void draw_rider(const pen *p, const skeleton *s, double left) {
   }
 }
 
+static void draw_rider_of(const pen *p, const skeleton *s) {
+  const bike_part *rider = find_rider(p->plan->bicycle);
+  draw_rider(p, s, rider->position[1] - p->plan->options->rider_offset);
+}
+
 static void draw_rear_frame(const pen *p, const skeleton *s) {
   const bike_part *rider = find_rider(p->plan->bicycle);
   if (s->high_wheel)
@@ -273,7 +278,7 @@ static void draw_rear_frame(const pen *p, const skeleton *s) {
   else
     draw_diamond(p, s);
   if (!s->recumbent) draw_saddle(p, s->seat);
-  if (rider) draw_rider(p, s, rider->position[1] - p->plan->options->rider_offset);
+  if (rider && !p->plan->options->moving_rider) draw_rider_of(p, s);
 }
 
 // Fork, stem and a handlebar that reaches back to the rider's hands.
@@ -289,7 +294,7 @@ static void draw_front_frame(const pen *p, const skeleton *s) {
   if (s->high_wheel) draw_cranks(p, s->front_hub);
 }
 
-void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body) {
+void mjcf_put_shape(FILE *out, const mjcf_plan *plan, int body) {
   const pen p = {out, plan, body, find_decimals(&plan->bicycle->geometry)};
   skeleton s = find_skeleton(plan);
   switch (body) {
@@ -304,6 +309,9 @@ void mjcf_put_shape(FILE *out, const mjcf_plan *plan, bike_assembly body) {
     break;
   case BIKE_FRONT_WHEEL:
     draw_wheel(&p, s.R_f);
+    break;
+  case MJCF_RIDER:
+    draw_rider_of(&p, &s);
     break;
   }
 }

@@ -34,7 +34,7 @@ typedef struct arguments {
   const char *output; // NULL: the standard output
 } arguments;
 
-enum { KEY_RIDER_OFFSET = TERM_KEY_FIRST };
+enum { KEY_RIDER_OFFSET = TERM_KEY_FIRST, KEY_MOVING_RIDER };
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -45,6 +45,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     return 0;
   case KEY_RIDER_OFFSET:
     args->model.options.rider_offset = term_number_of("--rider-offset", text);
+    return 0;
+  case KEY_MOVING_RIDER:
+    args->model.options.moving_rider = true;
     return 0;
   case 'o':
     args->output = text;
@@ -57,6 +60,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 static const struct argp_option options[] = {
     {"output", 'o', "X.xml|X.mjb", 0, "Where to write the model (MJCF on the standard output)", 2},
     {"rider-offset", KEY_RIDER_OFFSET, "W", 0, "Rider to the right of the file's place, m", 3},
+    {"moving-rider", KEY_MOVING_RIDER, NULL, 0,
+     "The rider on a slide, a driven joint that follows userdata", 3},
     {0},
 };
 

@@ -27,7 +27,9 @@ static const char documentation[] =
     "where its coordinates end MuJoCo's go on, and with them the ride. T and DT are multiples of "
     "the timestep. So should the times of --input "
     "be: RK4 loses its order in a step within which the input has a kink, and a line on stderr "
-    "says when. The rider cannot move.";
+    "says when. A column rider_offset of a bicycle's input moves the rider, a driven joint then; "
+    "in a "
+    "model he moves if it was written with --moving-rider.";
 
 typedef struct arguments {
   term_ride_options ride;
@@ -149,6 +151,7 @@ static term_exit load(rider *self) {
     if (code != TERM_DONE) return code;
     mjcf_options options = args->model.options;
     options.rider_offset = rider_offset;
+    options.moving_rider = self->ride.table && bike_input_table_has_rider(self->ride.table);
     self->run = runner_create(&bicycle, &options, &status, &error);
   }
   if (self->run)
@@ -179,7 +182,7 @@ static term_exit check_input(const rider *self) {
   const bike_input_table *table = self->ride.table;
   const char *file = self->args->ride.input_file;
   if (!table) return TERM_DONE;
-  if (bike_input_table_has_rider(table))
+  if (bike_input_table_has_rider(table) && !runner_rider_moves(self->run))
     return term_fail(TERM_USAGE, "%s: rider_offset: %s", file,
                      runner_status_string(RUNNER_UNSUPPORTED));
   size_t kinks = runner_model(self->run)->opt.integrator == mjINT_RK4 ? count_kinks(self) : 0;
@@ -201,8 +204,7 @@ static term_exit prepare(rider *self) {
                                 .user = self};
   if (runner_check_ride(self->run, &self->def, &refusal) != RUNNER_OK)
     return term_fail(TERM_USAGE, "%s: %s", options->start.file, refusal.text);
-  term_exit code = term_ride_begin(&self->ride, options);
-  return code == TERM_DONE ? check_input(self) : code;
+  return check_input(self);
 }
 
 int cmd_ride(int argc, char **argv) {
@@ -216,7 +218,9 @@ int cmd_ride(int argc, char **argv) {
   check_model(&args);
 
   rider self = {.args = &args};
-  term_exit code = load(&self);
+  // The input says whether the model's rider must be able to move.
+  term_exit code = term_ride_begin(&self.ride, &args.ride);
+  if (code == TERM_DONE) code = load(&self);
   if (code == TERM_DONE) code = prepare(&self);
   if (code == TERM_DONE) code = ride(&self);
   term_ride_free(&self.ride);

@@ -74,6 +74,10 @@ mjModel *runner_model(runner *r) {
   return r->model;
 }
 
+bool runner_rider_moves(const runner *r) {
+  return r->map.rider.moves;
+}
+
 mjData *runner_data(runner *r) {
   return r->ride;
 }
@@ -93,6 +97,7 @@ runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *
   void *ride_user = r->user;
   r->input = give_constant;
   r->user = &copy;
+  runner_place_rider(r, r->probe);
   status = runner_measure_probe(out, r, error);
   r->input = ride_input;
   r->user = ride_user;

@@ -18,7 +18,7 @@
   X(RUNNER_OK, "no error")                                                                         \
   X(RUNNER_ARGUMENT, "an argument is outside its range")                                           \
   X(RUNNER_MODEL, "the model is not a bicycle the runner knows")                                   \
-  X(RUNNER_UNSUPPORTED, "the rider of the MuJoCo bicycle cannot move")                             \
+  X(RUNNER_UNSUPPORTED, "the rider of this MuJoCo bicycle cannot move")                            \
   X(RUNNER_START, "no start position satisfies the rolling constraints")                           \
   X(RUNNER_MEMORY, "out of memory")                                                                \
   X(RUNNER_INTERRUPTED, "interrupted by the caller")                                               \
@@ -57,6 +57,9 @@ runner *runner_import(const char *path, runner_status *status, mjcf_error *error
 // The compiled model, to be read (Lp tests) or, between rides, changed in integrator, timestep.
 mjModel *runner_model(runner *r);
 
+// Whether an input may move the rider: the model was made with mjcf_options.moving_rider.
+bool runner_rider_moves(const runner *r);
+
 // The state from which mj_step continues, for tests and tools; valid until runner_free.
 mjData *runner_data(runner *r);
 
@@ -74,7 +77,7 @@ typedef struct runner_instant {
   double speed_rate;                                                                  // m/s^2
   double wheel_acceleration[2];                                                       // rad/s^2
   double kinetic, potential; // J      zero potential with every mass at the ground
-  double power;              // W      of steer torque, roll torque and damper
+  double power;              // W      of steer torque, roll torque, damper and moving rider
   double force[2][3];        // N
   double slip[2];            // m/s    horizontal speed of the wheel's material at its contact
   double height[2];          // m      of the lowest point of the disc above the ground

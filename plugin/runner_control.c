@@ -15,17 +15,43 @@ static bool is_finite_input(const bike_input *in) {
          isfinite(in->rider_velocity) && isfinite(in->rider_acceleration);
 }
 
-// The input at a time; a rider who moves or sits elsewhere than in the model is refused.
+// The input at a time; a rider who moves or sits elsewhere than in the model is refused, unless he
+// is a body of his own there.
 static bike_input read_input(runner *r, double time) {
   bike_input in = {.rider_offset = r->rider_offset};
   if (r->input) r->input(time, &in, r->user);
   if (!is_finite_input(&in)) {
     r->refused = RUNNER_ARGUMENT;
-  } else if (in.rider_offset != r->rider_offset || in.rider_velocity != 0 ||
-             in.rider_acceleration != 0) {
+  } else if (!r->map.rider.moves && (in.rider_offset != r->rider_offset || in.rider_velocity != 0 ||
+                                     in.rider_acceleration != 0)) {
     r->refused = RUNNER_UNSUPPORTED;
   }
-  return r->refused ? (bike_input){0} : in;
+  return r->refused ? (bike_input){.rider_offset = r->rider_offset} : in;
+}
+
+// The drive's motion, at this stage; qpos 0 is where the model was built with him.
+static void drive_rider(const runner *r, mjData *d, const bike_input *in) {
+  if (!r->map.rider.moves) return;
+  mjtNum *motion = d->userdata + r->map.rider.userdata;
+  motion[0] = in->rider_offset - r->rider_offset;
+  motion[1] = in->rider_velocity;
+  motion[2] = in->rider_acceleration;
+}
+
+void runner_place_rider(runner *r, mjData *d) {
+  const runner_rider *rider = &r->map.rider;
+  if (!rider->moves) return;
+  bike_input in = read_input(r, d->time);
+  d->qpos[rider->qpos] = in.rider_offset - r->rider_offset;
+  d->qvel[rider->dof] = in.rider_velocity;
+}
+
+double runner_work(const runner *r) {
+  return r->work + (r->map.rider.moves ? r->ride->act[r->map.rider.work] : 0);
+}
+
+double runner_probe_power(const runner *r) {
+  return r->probe_power + (r->map.rider.moves ? r->probe->act_dot[r->map.rider.work] : 0);
 }
 
 // Heading e_R of the rear wheel: horizontal, square to its axle n.  e_R = n x z / |n x z|
@@ -46,6 +72,7 @@ static void control(const mjModel *m, mjData *d) {
   runner *r = active;
   if (!r || m != r->model || (d != r->ride && d != r->probe)) return;
   bike_input in = read_input(r, d->time);
+  drive_rider(r, d, &in);
   const runner_hinge *steer = &r->map.steer;
 
   // M_S about the steering axis, the roll torque on the rear frame about its heading.

@@ -71,7 +71,7 @@ static int right_side(realtype time, N_Vector at, N_Vector out, void *user) {
   if (c->status != RUNNER_OK) return -1;
   find_position_rate(rate, m, y, y + m->nq);
   mju_copy(rate + m->nq, r->probe->qacc, m->nv);
-  rate[m->nq + m->nv] = r->probe_power;
+  rate[m->nq + m->nv] = runner_probe_power(r);
   return 0;
 }
 

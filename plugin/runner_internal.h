@@ -23,6 +23,15 @@ typedef struct runner_wheel {
   double radius;      // m
 } runner_wheel;
 
+// A rider who moves: a driven joint that follows userdata (rolling.h).
+typedef struct runner_rider {
+  bool moves;   // otherwise he is part of the frame
+  int qpos;     // address
+  int dof;      // address
+  int userdata; // address of his motion
+  int work;     // address in act of the work done on the model
+} runner_rider;
+
 // Where in the mjModel the bicycle is; nothing else of the model is known.
 typedef struct runner_map {
   int frame;               // id of the body rear_frame, or of what else carries the rear wheel
@@ -31,6 +40,7 @@ typedef struct runner_map {
   bool free_root;          // one free joint; otherwise slides x, y, z, hinges yaw, roll, pitch
   int root_qpos, root_dof; // their first addresses
   runner_hinge steer;      //
+  runner_rider rider;      //
   runner_wheel wheel[RUNNER_WHEELS]; //
   bool exact;                        // rolling_discs; otherwise contacts
 } runner_map;
@@ -47,7 +57,7 @@ struct runner {
   bike_input_function *input; // NULL: hands off
   void *user;                 // of the input
   int stages;                 //     calls since the step began
-  double work;                // J   of torques and damper since the start
+  double work;                // J   of torques and damper since the start (CVODE: the rider's too)
   double probe_power;         // W   of the same at the probe
   runner_status refused;      //     the input cannot be applied
 };
@@ -68,6 +78,15 @@ void runner_install_control(void);
 // From here on the control callback of this thread serves this runner (NULL: none). Returns the one
 // it served before.
 runner *runner_activate(runner *r);
+
+// Puts a moving rider of d to where the input has him at d's time, with its velocity.
+void runner_place_rider(runner *r, mjData *d);
+
+// Work done on the bicycle since the start, J, that of a moving rider included.
+double runner_work(const runner *r);
+
+// The same's rate at the probe, W, after an mj_forward.
+double runner_probe_power(const runner *r);
 
 //---------------------------------- another integrator (runner_cvode.c) ---------------------------
 

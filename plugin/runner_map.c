@@ -98,6 +98,25 @@ static bool find_radii(runner_map *map, const mjModel *m, mjcf_error *error) {
          find_radius(&map->wheel[RUNNER_FRONT], m, tuple, error);
 }
 
+// The rider whose place userdata says; one who sways by a numeric of his own needs nobody.
+static void find_rider(runner_rider *out, const mjModel *m) {
+  int joint = mj_name2id(m, mjOBJ_JOINT, "rider");
+  int tuple = mj_name2id(m, mjOBJ_TUPLE, "rolling_driven");
+  int actuator = mj_name2id(m, mjOBJ_ACTUATOR, "rolling:rider:work");
+  if (joint < 0 || tuple < 0 || actuator < 0) return;
+  if (mj_name2id(m, mjOBJ_NUMERIC, "driven:rider") >= 0) return;
+  // Activations belong to the last actuators.
+  int work = actuator - (m->nu - m->na);
+  if (work < 0) return;
+  for (int i = m->tuple_adr[tuple]; i < m->tuple_adr[tuple] + m->tuple_size[tuple]; i++)
+    if (m->tuple_objtype[i] == mjOBJ_JOINT && m->tuple_objid[i] == joint)
+      *out = (runner_rider){.moves = true,
+                            .qpos = m->jnt_qposadr[joint],
+                            .dof = m->jnt_dofadr[joint],
+                            .userdata = (int)m->tuple_objprm[i],
+                            .work = work};
+}
+
 bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
   *map = (runner_map){0};
   runner_wheel *rear = &map->wheel[RUNNER_REAR], *front = &map->wheel[RUNNER_FRONT];
@@ -112,7 +131,9 @@ bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
     return false;
   if (!(m->jnt_axis[3 * map->steer.joint + 2] > 0))
     return mjcf_fail(error, "not a bicycle: the steering axis does not point upwards");
-  return find_radii(map, m, error);
+  if (!find_radii(map, m, error)) return false;
+  if (map->exact) find_rider(&map->rider, m); // roll_check has looked at the drive
+  return true;
 }
 
 static runner_hinge foreign_hinge(const mjModel *m, int joint, int sign) {

@@ -160,8 +160,9 @@ runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *e
     mjcf_fail(error, "%s", roll_error_string(m.code));
     return RUNNER_INVALID_WARNING;
   }
-  *out = (runner_instant){
-      .potential = r->probe->energy[0], .kinetic = r->probe->energy[1], .power = r->probe_power};
+  *out = (runner_instant){.potential = r->probe->energy[0],
+                          .kinetic = r->probe->energy[1],
+                          .power = runner_probe_power(r)};
   fill_motion(out, r, r->probe);
   fill_contacts(out, r, r->probe);
   for (int i = 0; i < RUNNER_WHEELS; i++) turn_into_heading(out->force[i], m.force[i], out->yaw);

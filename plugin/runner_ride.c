@@ -89,7 +89,7 @@ static bike_sample row_of(const runner_instant *a, double time) {
 // Nonzero if the caller wants to stop.
 static int emit(const course *c, double time) {
   const runner_instant *a = &c->at;
-  runner_sample s = {.row = row_of(a, time), .more = {.work = c->r->work}};
+  runner_sample s = {.row = row_of(a, time), .more = {.work = runner_work(c->r)}};
   mju_copy3(s.more.rear_force, a->force[RUNNER_REAR]);
   mju_copy3(s.more.front_force, a->force[RUNNER_FRONT]);
   for (int i = 0; i < RUNNER_WHEELS; i++) {
@@ -273,6 +273,8 @@ runner_status runner_ride(runner_ride_result *out, runner *r, const runner_ride_
   r->user = def->user;
   r->work = 0;
   r->ride->time = 0;
+  mju_zero(r->ride->act, r->model->na);
+  runner_place_rider(r, r->ride);
   if (def->tolerance > 0) {
     c.cvode = runner_cvode_create(r, def->tolerance);
     if (!c.cvode) {

@@ -71,10 +71,10 @@ bool gates_judge(gate_list *out, const measurement_list *measurements, const gat
                  int measured_layers) {
   for (size_t i = 0; i < measurements->count; i++) {
     const gate_rule *rule = gate_rule_for(&measurements->items[i], rules);
-    if (rule && !add(out, &measurements->items[i], rule)) return false;
+    if (rule && !rule->information && !add(out, &measurements->items[i], rule)) return false;
   }
   for (size_t i = 0; i < rules->count; i++)
-    if (is_measured_layer(rules->items[i].layer, measured_layers) &&
+    if (!rules->items[i].information && is_measured_layer(rules->items[i].layer, measured_layers) &&
         !add_missing(out, measurements, &rules->items[i]))
       return false;
   return !measurements->lost;

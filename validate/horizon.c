@@ -49,7 +49,7 @@ static bool find_time(study_horizon *h, const comparison *c, const trace *twin) 
     const trace_signal *signal = &trace_signals[i];
     measurement m = measurement_of("L2", signal->name, "max", signal->unit);
     const gate_rule *rule = gate_rule_for(&m, &c->scenario->rules);
-    if (!rule || !trace_has(twin, signal)) continue;
+    if (!rule || rule->information || !trace_has(twin, signal)) continue;
     double time = time_within(c, twin, signal, c->scenario->horizon.share * rule->limit);
     limited = true;
     if (time >= h->time) continue;

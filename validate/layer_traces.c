@@ -20,7 +20,28 @@ static const char *const metrics[] = {"max", "scaled_max", "rmse", "nrmse", "end
 typedef struct residual {
   double *time, *error;
   size_t count;
+  size_t first; // row of the trace at which they begin
 } residual;
+
+static const gate_rule *rule_of(const comparison *c, const char *signal, const char *metric) {
+  measurement m = measurement_of(layer_traces.name, signal, metric, "");
+  return gate_rule_for(&m, &c->scenario->rules);
+}
+
+// What of a residual lies within the window of the metric's rule. Rows are at k sample, which is
+// not to the last digit what people write: a millionth of a row is no difference.
+static residual windowed(const comparison *c, const residual *r, const char *signal,
+                         const char *metric) {
+  residual part = *r;
+  const gate_rule *rule = rule_of(c, signal, metric);
+  if (!rule) return part;
+  double slack = 1e-6 * c->scenario->sample;
+  for (; part.count > 0 && *part.time < rule->from - slack; part.count--)
+    part.time++, part.error++, part.first++;
+  while (rule->to > 0 && part.count > 0 && part.time[part.count - 1] > rule->to + slack)
+    part.count--;
+  return part;
+}
 
 static void add(comparison *c, const char *signal, const char *metric, const char *unit,
                 metrics_peak peak) {
@@ -30,13 +51,31 @@ static void add(comparison *c, const char *signal, const char *metric, const cha
   measurement_add(&c->measurements, &m);
 }
 
+// The same of a part of the ride, which without a row is no success.
+static void add_part(comparison *c, const residual *part, const char *signal, const char *metric,
+                     const char *unit, metrics_peak peak) {
+  measurement m = measurement_of(layer_traces.name, signal, metric, unit);
+  m.value = part->count ? peak.value : NAN;
+  m.time = part->count ? peak.time : NAN;
+  const gate_rule *rule = rule_of(c, signal, metric);
+  if (!part->count && rule && (rule->from > 0 || rule->to > 0))
+    measurement_detail(&m, "no comparable row from %g s on within the window", rule->from);
+  measurement_add(&c->measurements, &m);
+}
+
 static void sum_up(comparison *c, const residual *r, const char *signal, const char *unit) {
-  size_t n = r->count;
-  add(c, signal, "max", unit, metrics_max(r->time, r->error, n));
-  add(c, signal, "scaled_max", unit, metrics_scaled_max(r->time, r->error, n, c->growth_rate));
-  add(c, signal, "rmse", unit, (metrics_peak){metrics_rms(r->error, n), NAN});
-  add(c, signal, "end", unit,
-      n ? (metrics_peak){fabs(r->error[n - 1]), r->time[n - 1]} : (metrics_peak){NAN, NAN});
+  residual p = windowed(c, r, signal, "max");
+  add_part(c, &p, signal, "max", unit, metrics_max(p.time, p.error, p.count));
+  p = windowed(c, r, signal, "scaled_max");
+  add_part(c, &p, signal, "scaled_max", unit,
+           metrics_scaled_max(p.time, p.error, p.count, c->growth_rate));
+  p = windowed(c, r, signal, "rmse");
+  add_part(c, &p, signal, "rmse", unit, (metrics_peak){metrics_rms(p.error, p.count), NAN});
+  p = windowed(c, r, signal, "end");
+  size_t last = p.count ? p.count - 1 : 0;
+  metrics_peak end = {NAN, NAN};
+  if (p.count) end = (metrics_peak){fabs(p.error[last]), p.time[last]};
+  add_part(c, &p, signal, "end", unit, end);
 }
 
 // What is judged is as much of a ride as can be predicted; the rest is told.
@@ -47,33 +86,36 @@ static void tell_of_rest(comparison *c, const residual *r, const char *signal, c
         metrics_max(r->time + r->count, r->error + r->count, all - r->count));
 }
 
-// Root mean square over what the signal does: its range, or where that is nothing the nominal size
-// below which nobody looks, 1 cm, 1 cm/s or half a degree.
+// Root mean square over what the signal does: its range, or where that is less the nominal size
+// below which nobody looks: the rule's, or 1 cm, 1 cm/s or half a degree.
 static void add_nrmse(comparison *c, const residual *r, const trace_signal *signal) {
   static const double nominal = 0.01;
+  const gate_rule *rule = rule_of(c, signal->name, "nrmse");
+  residual p = windowed(c, r, signal->name, "nrmse");
   double low = INFINITY, high = -INFINITY;
-  for (size_t k = 0; k < r->count; k++) {
-    double value = trace_value(&c->side[REFERENCE].trace.rows[k], signal);
+  for (size_t k = 0; k < p.count; k++) {
+    double value = trace_value(&c->side[REFERENCE].trace.rows[p.first + k], signal);
     low = fmin(low, value), high = fmax(high, value);
   }
-  double size = fmax(high - low, nominal);
-  add(c, signal->name, "nrmse", "", (metrics_peak){metrics_rms(r->error, r->count) / size, NAN});
+  double size = fmax(high - low, rule && rule->nominal > 0 ? rule->nominal : nominal);
+  add_part(c, &p, signal->name, "nrmse", "",
+           (metrics_peak){metrics_rms(p.error, p.count) / size, NAN});
 }
 
 // How far the candidate leaves the tube about the reference whose half width in time is the rule's;
 // the half width in value is its limit. Only where a rule asks.
 static void add_tube(comparison *c, const residual *r, const trace_signal *signal) {
-  measurement m = measurement_of(layer_traces.name, signal->name, "tube", signal->unit);
-  const gate_rule *rule = gate_rule_for(&m, &c->scenario->rules);
+  const gate_rule *rule = rule_of(c, signal->name, "tube");
   if (!rule) return;
-  double *a = calloc(r->count + 1, sizeof *a), *b = calloc(r->count + 1, sizeof *b);
-  for (size_t k = 0; a && b && k < r->count; k++) {
-    a[k] = trace_value(&c->side[REFERENCE].trace.rows[k], signal);
-    b[k] = trace_value(&c->side[CANDIDATE].trace.rows[k], signal);
+  residual p = windowed(c, r, signal->name, "tube");
+  double *a = calloc(p.count + 1, sizeof *a), *b = calloc(p.count + 1, sizeof *b);
+  for (size_t k = 0; a && b && k < p.count; k++) {
+    a[k] = trace_value(&c->side[REFERENCE].trace.rows[p.first + k], signal);
+    b[k] = trace_value(&c->side[CANDIDATE].trace.rows[p.first + k], signal);
   }
   if (a && b)
-    add(c, signal->name, "tube", signal->unit,
-        metrics_tube(r->time, a, b, r->count, rule->time_tolerance));
+    add_part(c, &p, signal->name, "tube", signal->unit,
+             metrics_tube(p.time, a, b, p.count, rule->time_tolerance));
   else
     c->measurements.lost = true;
   free(a);
@@ -181,7 +223,7 @@ static term_exit measure(comparison *c, problem *p) {
   if (code != TERM_DONE) return code;
   size_t count = comparison_rows(c);
   residual r = {calloc(count + 1, sizeof(double)), calloc(count + 1, sizeof(double)),
-                comparison_judged_rows(c)};
+                comparison_judged_rows(c), 0};
   if (r.time && r.error) {
     compare_ends(c);
     for (size_t k = 0; k < count; k++) r.time[k] = c->side[REFERENCE].trace.rows[k].sample.time;

@@ -46,6 +46,8 @@ static json_t *measurement_json(const measurement *m) {
 static json_t *gate_json(const gate *g) {
   json_t *object = measurement_json(&g->what);
   json_object_set_new(object, "limit", term_json_number(g->rule->limit));
+  if (g->rule->from > 0) json_object_set_new(object, "from", term_json_number(g->rule->from));
+  if (g->rule->to > 0) json_object_set_new(object, "to", term_json_number(g->rule->to));
   json_object_set_new(object, "pass", json_boolean(g->pass));
   json_object_set_new(object, "reason", json_string(g->rule->reason));
   return object;

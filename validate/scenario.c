@@ -213,6 +213,12 @@ static const bike_key scenario_keys[] = {
     {"cost", scenario_read_cost, offsetof(scenario, cost), false},
 };
 
+static bool judges(const gate_rules *rules) {
+  for (size_t i = 0; i < rules->count; i++)
+    if (!rules->items[i].information) return true;
+  return false;
+}
+
 // What no single key can be blamed for.
 static int check_whole(const bike_yaml *yaml, const scenario *s) {
   bike_field field = {"sample", 0, NULL};
@@ -221,7 +227,7 @@ static int check_whole(const bike_yaml *yaml, const scenario *s) {
     return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "is longer than the duration");
   if (s->duration / s->sample > MOST_ROWS)
     return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "asks for more than %d rows", MOST_ROWS);
-  if (s->rules.count == 0)
+  if (!judges(&s->rules))
     return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX,
                           "nothing is judged: neither 'gates' nor 'include' names a gate");
   return BIKE_OK;

@@ -25,8 +25,11 @@ typedef struct gate_rule {
   char metric[MEASUREMENT_NAME];                    //
   char signals[GATE_MAX_SIGNALS][MEASUREMENT_NAME]; //
   int signal_count;                                 // 0: all signals of the layer
+  bool information;                                 // measured, not judged: the limit says nothing
   double limit;                                     // >= 0, of the measurement's unit
   double time_tolerance;                            // s  >= 0, of the metric 'tube'
+  double nominal;                                   // of 'nrmse': least size; 0: the layer's own
+  double from, to;                                  // s  of a ride, both included; to 0: the end
   char reason[GATE_REASON];                         // why the limit has its value
 } gate_rule;
 

@@ -60,6 +60,41 @@ static int check_names(const bike_yaml *yaml, const bike_field *where, const gat
   return BIKE_OK;
 }
 
+// An option that only one metric has; it would say nothing elsewhere.
+static int check_only_for(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule,
+                          const char *key, const char *metric) {
+  bike_field given;
+  if (strcmp(rule->metric, metric) == 0 || !bike_yaml_find(where->value, key, &given))
+    return BIKE_OK;
+  return bike_yaml_fail(yaml, &given, BIKE_ERROR_SYNTAX, "only the metric '%s' has it", metric);
+}
+
+// Only the metrics of L2 that sum up a ride can do so for a part of it.
+static int check_window(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule) {
+  bike_field from, to;
+  bool has_from = bike_yaml_find(where->value, "from", &from);
+  bool has_to = bike_yaml_find(where->value, "to", &to);
+  if (!has_from && !has_to) return BIKE_OK;
+  if (rule->layer != &layer_traces || strcmp(rule->metric, "difference") == 0)
+    return bike_yaml_fail(yaml, has_from ? &from : &to, BIKE_ERROR_SYNTAX,
+                          "the metric '%s' of layer %s has no window in time", rule->metric,
+                          rule->layer->name);
+  if (has_from && has_to && rule->from > rule->to)
+    return bike_yaml_fail(yaml, &from, BIKE_ERROR_SYNTAX, "%g s is later than 'to', %g s",
+                          rule->from, rule->to);
+  return BIKE_OK;
+}
+
+static int check_options(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule) {
+  bike_field limit;
+  if (!rule->information && !bike_yaml_find(where->value, "limit", &limit))
+    return bike_yaml_fail(yaml, where, BIKE_ERROR_SYNTAX,
+                          "key 'limit' is missing, or 'info: true' where nothing is judged");
+  int code = check_only_for(yaml, where, rule, "time_tolerance", "tube");
+  if (!code) code = check_only_for(yaml, where, rule, "nominal", "nrmse");
+  return code ? code : check_window(yaml, where, rule);
+}
+
 static int add_rule(const bike_yaml *yaml, const bike_field *where, gate_rules *rules,
                     const gate_rule *rule) {
   if (rules->count == rules->room) {
@@ -78,7 +113,11 @@ static int read_rule(const bike_yaml *yaml, const bike_field *where, gate_rules 
       {"layer", read_layer, offsetof(gate_rule, layer), true},
       {"metric", read_metric, offsetof(gate_rule, metric), true},
       {"signals", read_signals, offsetof(gate_rule, signals), false},
-      {"limit", bike_yaml_not_negative, offsetof(gate_rule, limit), true},
+      {"limit", bike_yaml_not_negative, offsetof(gate_rule, limit), false},
+      {"info", bike_yaml_flag, offsetof(gate_rule, information), false},
+      {"from", bike_yaml_not_negative, offsetof(gate_rule, from), false},
+      {"to", bike_yaml_positive, offsetof(gate_rule, to), false},
+      {"nominal", bike_yaml_positive, offsetof(gate_rule, nominal), false},
       {"time_tolerance", bike_yaml_not_negative, offsetof(gate_rule, time_tolerance), false},
       {"reason", read_reason, offsetof(gate_rule, reason), true},
   };
@@ -90,10 +129,8 @@ static int read_rule(const bike_yaml *yaml, const bike_field *where, gate_rules 
   if (code) return code;
   while (rule.signal_count < GATE_MAX_SIGNALS && *rule.signals[rule.signal_count])
     rule.signal_count++;
-  if (rule.time_tolerance > 0 && strcmp(rule.metric, "tube") != 0)
-    return bike_yaml_fail(yaml, where, BIKE_ERROR_SYNTAX,
-                          "only the metric 'tube' has a time_tolerance");
   code = check_names(yaml, where, &rule);
+  if (!code) code = check_options(yaml, where, &rule);
   return code ? code : add_rule(yaml, where, rules, &rule);
 }
 

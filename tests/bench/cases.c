@@ -100,6 +100,23 @@ static void free_steps(void *context, int repeats) {
   roll_install();
 }
 
+// What mj_forward calls between the passive forces and the solver: inertia, velocities and all
+// forces but those of the discs stand in mjData.
+static void callback(void *context, int repeats) {
+  bench_cases *c = context;
+  mjModel *m = runner_model(c->ride);
+  mjData *d = runner_data(c->ride);
+  mj_copyData(d, m, c->start);
+  mj_fwdPosition(m, d);
+  mj_fwdVelocity(m, d);
+  for (int i = 0; i < repeats; i++) {
+    // Its forces are added: without this they would pile up.
+    mju_zero(d->qfrc_passive, m->nv);
+    roll_control(m, d);
+  }
+  c->sink = d->qfrc_passive[0];
+}
+
 void bench_contests(bench_contest out[BENCH_CONTESTS], bench_cases *c) {
   out[0] = (bench_contest){.question = "right-hand side / mj_forward",
                            .ours = {"bike_rates_of", right_hand_side, c},
@@ -121,4 +138,9 @@ void bench_contests(bench_contest out[BENCH_CONTESTS], bench_cases *c) {
                            .theirs = {"finite differences", bench_difference_points, &c->row},
                            .repeats = 200,
                            .at_most = INFINITY};
+  out[4] = (bench_contest){.question = "rolling of two discs / mj_forward",
+                           .ours = {"roll_control", callback, c},
+                           .theirs = {"mj_forward", mujoco_forward, c},
+                           .repeats = 2000,
+                           .at_most = 0.8};
 }

@@ -14,7 +14,7 @@ typedef struct bench_cases bench_cases;
 bench_cases *bench_cases_create(const bike_bicycle *bicycle, const bike_state *state);
 void bench_cases_free(bench_cases *cases);
 
-enum { BENCH_CONTESTS = 4 };
+enum { BENCH_CONTESTS = 5 };
 void bench_contests(bench_contest out[BENCH_CONTESTS], bench_cases *cases);
 
 #endif

@@ -100,8 +100,11 @@ static const run_wrong commands[] = {
     {RIDE "--input nosuch.csv", "nosuch.csv"},
     {RIDE "--input broken.csv", "broken.csv:3: steer_torque"},
     {RIDE "--input short.csv", "short.csv:3: time: ends at"},
-    {RIDE "--input rider.csv", "rider.csv: rider_offset"},
-    {"bicycle mujoco ride roadster --speed 6 --input rider.csv " TIMES, "rider.csv: rider_offset"},
+    {MODEL_RIDE("right.xml") "--input rider.csv", "rider.csv: rider_offset"},
+    {RIDE "--rolling contact --input rider.csv", "needs exact rolling"},
+    {"bicycle mujoco mjcf roadster -o out.xml --moving-rider --rolling contact", "exact rolling"},
+    {"bicycle mujoco mjcf roadster_riderless -o out.xml --moving-rider", "rider"},
+    {"bicycle mujoco ride roadster_riderless --speed 6 --input rider.csv " TIMES, "rider"},
     {"bicycle mujoco ride roadster_riderless --speed 6 --rider-offset 0.01 " TIMES, "rider offset"},
     // Outputs.
     {"bicycle mujoco ride roadster --speed 6 -o folder.xml " TIMES, "folder.xml: Is a directory"},
@@ -285,6 +288,44 @@ static void rows_within_a_timestep_are_told_of(void **state) {
   assert_true(error > 1e-10); // or there would be nothing to tell
 }
 
+//---------------------------------- a rider who moves ---------------------------------------------
+
+static const char sway[] =
+    "printf 'time,rider_offset\\n0,0\\n0.3,0.02\\n0.7,-0.01\\n1,0\\n' > sway.csv; ";
+
+static json_t *ride_swaying(const char *ride) {
+  char command[512];
+  snprintf(command, sizeof command,
+           "%s %s --input sway.csv --time 1 --sample 0.1 --json; rm -f sway.csv", sway, ride);
+  return run_json(command);
+}
+
+static void check_swaying(json_t *ride, const json_t *analytic) {
+  json_t *is = json_object_get(ride, "end"), *should = json_object_get(analytic, "end");
+  assert_near(run_number(is, "lean"), run_number(should, "lean"), 1e-10);
+  assert_near(run_number(is, "steer"), run_number(should, "steer"), 1e-10);
+  assert_near(run_number(json_object_get(ride, "energy"), "balance"), 0, 1e-11);
+  json_decref(ride);
+}
+
+// By the bicycle's name, and in a model written for it.
+static void a_rider_moves_as_his_input_says(void **state) {
+  (void)state;
+  json_t *analytic = ride_swaying("bicycle ride roadster --speed 6");
+  assert_true(fabs(run_number(json_object_get(analytic, "end"), "lean")) > 0.001);
+  check_swaying(ride_swaying("bicycle mujoco ride roadster --speed 6"), analytic);
+  check_swaying(ride_swaying("bicycle mujoco mjcf roadster --speed 6 --moving-rider -o sway.xml; "
+                             "bicycle mujoco ride sway.xml --speed 6"),
+                analytic);
+  check_swaying(ride_swaying("bicycle mujoco mjcf roadster --speed 6 --moving-rider -o sway.mjb; "
+                             "bicycle mujoco ride sway.mjb"),
+                analytic);
+  json_decref(analytic);
+  run_result result = run_command("rm sway.xml sway.mjb");
+  assert_int_equal(result.status, 0);
+  run_free(&result);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_wrong_command_is_refused),
@@ -295,6 +336,7 @@ int main(void) {
       cmocka_unit_test(mjcf_prints_what_it_writes),
       cmocka_unit_test(ride_json_has_its_keys),
       cmocka_unit_test(an_invalid_run_keeps_its_rows),
+      cmocka_unit_test(a_rider_moves_as_his_input_says),
       cmocka_unit_test(rows_within_a_timestep_are_told_of),
   };
   return cmocka_run_group_tests(tests, enter, run_leave_group);
