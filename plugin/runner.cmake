@@ -20,6 +20,7 @@ add_library(mujoco_runner STATIC
   runner_foreign.c
   runner_guard.c
   runner_map.c
+  runner_mass.c
   runner_measure.c
   runner_posture.c
   runner_ride.c

@@ -89,6 +89,13 @@ typedef struct runner_instant {
 runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *state,
                               const bike_input *input, mjcf_error *error);
 
+// MuJoCo's mass matrix for the speeds (lean_rate, steer_rate, speed) of the rolling bicycle:
+// V^T M V, the columns of V being the velocities (qvel) at one unit of each. Row-major, SI, as
+// bike_mass_matrix; of the state only lean and steer matter. Does not touch a ride's state.
+// Errors: ARGUMENT, START, MEMORY, INVALID_ERROR.
+runner_status runner_mass_matrix(double out[9], runner *r, const bike_state *state,
+                                 mjcf_error *error);
+
 // Places the ride's state (time 0) at a bike_state, or at the model's keyframe `test`
 // (RUNNER_MODEL if there is none). The keyframe's state is taken as it is if its constraint
 // residuals are below RUNNER_START_TOLERANCE, and refused otherwise.

@@ -98,12 +98,21 @@ static bool find_radii(runner_map *map, const mjModel *m, mjcf_error *error) {
          find_radius(&map->wheel[RUNNER_FRONT], m, tuple, error);
 }
 
+// A slide to the right of the frame.
+static bool points_right(const mjModel *m, int joint, int frame) {
+  const mjtNum *axis = m->jnt_axis + 3 * joint;
+  int body = m->jnt_bodyid[joint];
+  return m->jnt_type[joint] == mjJNT_SLIDE && m->body_parentid[body] == frame && axis[1] < 0 &&
+         hypot(axis[0], axis[2]) <= direction_tolerance &&
+         mju_norm3(m->body_quat + 4 * body + 1) <= direction_tolerance;
+}
+
 // The rider whose place userdata says; one who sways by a numeric of his own needs nobody.
-static void find_rider(runner_rider *out, const mjModel *m) {
+static void find_rider(runner_rider *out, const mjModel *m, int frame) {
   int joint = mj_name2id(m, mjOBJ_JOINT, "rider");
   int tuple = mj_name2id(m, mjOBJ_TUPLE, "rolling_driven");
   int actuator = mj_name2id(m, mjOBJ_ACTUATOR, "rolling:rider:work");
-  if (joint < 0 || tuple < 0 || actuator < 0) return;
+  if (joint < 0 || tuple < 0 || actuator < 0 || !points_right(m, joint, frame)) return;
   if (mj_name2id(m, mjOBJ_NUMERIC, "driven:rider") >= 0) return;
   // Activations belong to the last actuators.
   int work = actuator - (m->nu - m->na);
@@ -132,7 +141,7 @@ bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
   if (!(m->jnt_axis[3 * map->steer.joint + 2] > 0))
     return mjcf_fail(error, "not a bicycle: the steering axis does not point upwards");
   if (!find_radii(map, m, error)) return false;
-  if (map->exact) find_rider(&map->rider, m); // roll_check has looked at the drive
+  if (map->exact) find_rider(&map->rider, m, map->frame); // roll_check has looked at the drive
   return true;
 }
 

@@ -109,6 +109,10 @@ typedef struct engine {
   // the engine knows rides only.
   term_exit (*evaluate)(engine_instant *out, void *instance, const bike_state *state, problem *p);
 
+  // Mass matrix (3 x 3, row-major, SI) of the rolling bicycle for (lean rate, steer rate, speed):
+  // with these rates r the kinetic energy is r.M r / 2. Errors as `evaluate`. NULL: not known.
+  term_exit (*mass_matrix)(double M[9], void *instance, const bike_state *state, problem *p);
+
   // A (4 x 4, row-major) of x' = A x near upright straight riding at a speed, x = (steer, lean,
   // steer rate, lean rate), by the engine's own means. NULL: it has none.
   term_exit (*linearize)(double A[16], void *instance, double speed, problem *p);

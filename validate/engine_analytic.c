@@ -94,6 +94,14 @@ static term_exit evaluate(engine_instant *out, void *instance, const bike_state 
   return TERM_DONE;
 }
 
+// A rider off the middle is part of the bicycle's numbers.
+static term_exit mass_matrix(double M[9], void *instance, const bike_state *state, problem *p) {
+  const analytic *a = instance;
+  int error = bike_mass_matrix(M, &a->model, state, 0);
+  if (error == BIKE_OK) return TERM_DONE;
+  return problem_set(p, term_exit_of(error), "%s", bike_error_string(error));
+}
+
 typedef struct recorder {
   trace *out;
   const engine_ride *ride;
@@ -148,5 +156,6 @@ const engine engine_analytic = {
     .order = order,
     .linearize = linearize,
     .evaluate = evaluate,
+    .mass_matrix = mass_matrix,
     .ride = ride,
 };

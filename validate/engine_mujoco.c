@@ -198,6 +198,12 @@ static term_exit evaluate(engine_instant *out, void *instance, const bike_state 
   return TERM_DONE;
 }
 
+static term_exit mass_matrix(double M[9], void *instance, const bike_state *state, problem *p) {
+  mjcf_error error = {""};
+  runner_status status = runner_mass_matrix(M, engine_mujoco_runner(instance), state, &error);
+  return status == RUNNER_OK ? TERM_DONE : fail(p, status, &error);
+}
+
 typedef struct recorder {
   trace *out;
   const engine_ride *ride;
@@ -254,5 +260,6 @@ const engine engine_mujoco = {
     .order = order,
     .linearize = linearize,
     .evaluate = evaluate,
+    .mass_matrix = mass_matrix,
     .ride = ride,
 };

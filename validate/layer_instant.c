@@ -40,13 +40,19 @@ static const quantity quantities[] = {
     INSTANT("potential", "J", potential, SCALE_ENERGY),
 };
 
-enum { QUANTITY_COUNT = sizeof quantities / sizeof quantities[0], FORCE_COUNT = 2 };
+enum {
+  QUANTITY_COUNT = sizeof quantities / sizeof quantities[0],
+  FORCE_COUNT = 2,
+  MASS = QUANTITY_COUNT + FORCE_COUNT, // index of the mass matrix, the last
+  ERROR_COUNT
+};
 
 static const char *const force_names[FORCE_COUNT + 1] = {"rear_force", "front_force", NULL};
+static const char mass_name[] = "mass_matrix";
 
 // The largest errors so far, each with the state at which it stands.
 typedef struct extremes {
-  measurement error[QUANTITY_COUNT + FORCE_COUNT];
+  measurement error[ERROR_COUNT];
 } extremes;
 
 static double value_of(const engine_instant *instant, const quantity *q) {
@@ -99,9 +105,43 @@ static void compare_forces(extremes *out, const bike_state *state, const engine_
   }
 }
 
+// Each element is compared to those of the diagonal that it couples: sqrt(M_ii M_jj).
+static void compare_masses(extremes *out, const bike_state *state, const double a[9],
+                           const double b[9]) {
+  measurement *m = &out->error[MASS];
+  for (int i = 0; i < 9; i++) {
+    double error = fabs(b[i] - a[i]) / sqrt(a[4 * (i / 3)] * a[4 * (i % 3)]);
+    if (!is_worse(error, m->value)) continue;
+    m->value = error;
+    describe(m, state, a[i], b[i], "(SI)");
+  }
+}
+
+static bool knows_masses(const comparison *c) {
+  return c->side[REFERENCE].engine->mass_matrix && c->side[CANDIDATE].engine->mass_matrix;
+}
+
+// A state that was evaluated has a mass matrix: to refuse it is a difference, not the state's.
+static term_exit compare_masses_at(extremes *out, comparison *c, const bike_state *state,
+                                   problem *p) {
+  double M[2][9];
+  for (int i = 0; i < 2; i++) {
+    const comparison_side *side = &c->side[i == 0 ? REFERENCE : CANDIDATE];
+    term_exit code = side->engine->mass_matrix(M[i], side->instance, state, p);
+    if (code == TERM_USAGE) {
+      out->error[MASS].value = NAN;
+      measurement_detail(&out->error[MASS], "%s: %.120s", side->label, p->text);
+      return TERM_DONE;
+    }
+    if (code != TERM_DONE) return problem_prefix(p, code, side->label);
+  }
+  compare_masses(out, state, M[0], M[1]);
+  return TERM_DONE;
+}
+
 // A state that only the candidate refuses is a difference like any other.
 static void note_refusal(extremes *out, const bike_state *s, const char *why) {
-  for (int i = 0; i < QUANTITY_COUNT + FORCE_COUNT; i++) {
+  for (int i = 0; i < ERROR_COUNT; i++) {
     out->error[i].value = NAN;
     measurement_detail(&out->error[i], "at lean %.4g, steer %.4g, speed %.4g: %.120s", s->lean,
                        s->steer, s->speed, why);
@@ -125,7 +165,7 @@ static term_exit compare_at(extremes *out, bool *admissible, comparison *c, cons
   if (code != TERM_DONE) return problem_prefix(p, code, candidate->label);
   compare_quantities(out, state, &instant[0], &instant[1]);
   compare_forces(out, state, &instant[0], &instant[1], c->weight);
-  return TERM_DONE;
+  return knows_masses(c) ? compare_masses_at(out, c, state, p) : TERM_DONE;
 }
 
 // SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): uniform in [low, high).
@@ -171,19 +211,23 @@ static term_exit compare_all(extremes *out, comparison *c, problem *p) {
   return code;
 }
 
+static const char *name_of(int error) {
+  if (error < QUANTITY_COUNT) return quantities[error].name;
+  return error < MASS ? force_names[error - QUANTITY_COUNT] : mass_name;
+}
+
 static term_exit measure(comparison *c, problem *p) {
   if (!c->side[REFERENCE].engine->evaluate || !c->side[CANDIDATE].engine->evaluate)
     return TERM_DONE; // an engine that knows rides only
   extremes worst;
-  for (int i = 0; i < QUANTITY_COUNT + FORCE_COUNT; i++) {
-    const char *name = i < QUANTITY_COUNT ? quantities[i].name : force_names[i - QUANTITY_COUNT];
-    worst.error[i] = measurement_of(layer_instant.name, name, "relative", "");
+  for (int i = 0; i < ERROR_COUNT; i++) {
+    worst.error[i] = measurement_of(layer_instant.name, name_of(i), "relative", "");
     worst.error[i].value = -1; // less than any error, replaced by the first
   }
   term_exit code = compare_all(&worst, c, p);
   if (code != TERM_DONE) return code;
-  for (int i = 0; i < QUANTITY_COUNT + FORCE_COUNT; i++)
-    measurement_add(&c->measurements, &worst.error[i]);
+  int count = knows_masses(c) ? ERROR_COUNT : MASS;
+  for (int i = 0; i < count; i++) measurement_add(&c->measurements, &worst.error[i]);
   return TERM_DONE;
 }
 
@@ -193,7 +237,7 @@ static bool knows(const char *signal, const char *metric) {
   if (!signal || layer_names(force_names, signal)) return true;
   for (int i = 0; i < QUANTITY_COUNT; i++)
     if (strcmp(quantities[i].name, signal) == 0) return true;
-  return false;
+  return strcmp(mass_name, signal) == 0;
 }
 
 const layer layer_instant = {

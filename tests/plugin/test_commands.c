@@ -101,6 +101,7 @@ static const run_wrong commands[] = {
     {RIDE "--input broken.csv", "broken.csv:3: steer_torque"},
     {RIDE "--input short.csv", "short.csv:3: time: ends at"},
     {MODEL_RIDE("right.xml") "--input rider.csv", "rider.csv: rider_offset"},
+    {MODEL_RIDE("left.xml") "--input rider.csv", "rider.csv: rider_offset"},
     {RIDE "--rolling contact --input rider.csv", "needs exact rolling"},
     {"bicycle mujoco mjcf roadster -o out.xml --moving-rider --rolling contact", "exact rolling"},
     {"bicycle mujoco mjcf roadster_riderless -o out.xml --moving-rider", "rider"},
@@ -138,6 +139,8 @@ static int enter(void **state) {
       "edit 's/integrator=\"RK4\"/integrator=\"RK5\"/' integrator.xml; "
       "edit 's/timestep=\"[^\"]*\"/timestep=\"0\"/' timestep.xml; "
       "edit 's/<custom>/<custom><numeric name=\"inertia:rear_frame\" data=\"x\"\\/>/' inertia.xml; "
+      "bicycle mujoco mjcf roadster --moving-rider --speed 6 2>/dev/null | "
+      "sed 's/axis=\"0 -1 0\"/axis=\"0 1 0\"/' > left.xml; "
       "ln -s /dev/full full.xml; ln -s /dev/full full.mjb; "
       "printf 'time,steer_torque\\n0,0\\n1,x\\n' > broken.csv; "
       "printf 'time,steer_torque\\n0,0\\n0.05,1\\n' > short.csv; "

@@ -5,6 +5,7 @@
 
 #include <engine_mujoco.h>
 #include <layer.h>
+#include <stdio.h>
 #include <string.h>
 
 static mjModel *model_of(support_run *f) {
@@ -72,6 +73,62 @@ static void test_wrong_acceleration_is_L0(void **state) {
   support_run *f = support_open(&wrong, support_scenario_text);
   support_expect_failure(support_play(f), "L0", "steer acceleration");
   support_close(f);
+}
+
+// An engine that moves one part in a hundred million too heavily where lean and speed are coupled.
+static term_exit mass_wrong(double M[9], void *instance, const bike_state *state, problem *p) {
+  term_exit code = engine_mujoco.mass_matrix(M, instance, state, p);
+  M[2] += 1e-8 * sqrt(M[0] * M[8]);
+  return code;
+}
+
+static term_exit mass_nan(double M[9], void *instance, const bike_state *state, problem *p) {
+  term_exit code = engine_mujoco.mass_matrix(M, instance, state, p);
+  if (state->speed == 4.6) M[4] = NAN; // at the first state only
+  return code;
+}
+
+static term_exit mass_never(double M[9], void *instance, const bike_state *state, problem *p) {
+  (void)M;
+  (void)instance;
+  (void)state;
+  return problem_set(p, TERM_USAGE, "no such masses");
+}
+
+static void test_wrong_mass_matrix_is_L0(void **state) {
+  (void)state;
+  engine wrong = engine_mujoco;
+  wrong.mass_matrix = mass_wrong;
+  support_run *f = support_open(&wrong, support_scenario_text);
+  support_expect_failure(support_play(f), "L0", "mass matrix");
+  support_close(f);
+  wrong.mass_matrix = mass_nan;
+  f = support_open(&wrong, support_scenario_text);
+  support_expect_failure(support_play(f), "L0", "mass matrix");
+  support_close(f);
+  wrong.mass_matrix = mass_never;
+  f = support_open(&wrong, support_scenario_text);
+  support_expect_failure(support_play(f), "L0", "no such masses");
+  support_close(f);
+}
+
+// Of engines that agree it differs by rounding, whatever the root and whatever keeps the wheels on
+// the ground.
+static void test_mass_matrix_agrees(void **state) {
+  (void)state;
+  static const char *const options[] = {"", ", root: free", ", rolling: contact"};
+  for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "title: t\nbicycle: benchmark\nstart: {speed: 5}\nduration: 0.01\nsample: 0.01\n"
+             "reference: {engine: analytic}\ncandidate: {engine: mujoco%s}\ngates:\n"
+             "  - {layer: L0, metric: relative, signals: [mass_matrix], limit: 1e-10, reason: r}\n",
+             options[i]);
+    support_run *f = support_open(NULL, text);
+    double error = support_find(support_play(f), "L0", "mass_matrix", "relative")->value;
+    assert_true(error <= 1e-10);
+    support_close(f);
+  }
 }
 
 static term_exit evaluate_never(engine_instant *out, void *instance, const bike_state *state,
@@ -226,6 +283,8 @@ int main(void) {
       cmocka_unit_test(test_wrong_product_of_inertia_is_named),
       cmocka_unit_test(test_wrong_damping_is_named),
       cmocka_unit_test(test_wrong_acceleration_is_L0),
+      cmocka_unit_test(test_wrong_mass_matrix_is_L0),
+      cmocka_unit_test(test_mass_matrix_agrees),
       cmocka_unit_test(test_refused_state_is_L0),
       cmocka_unit_test(test_nan_at_one_instant_fails),
       cmocka_unit_test(test_wrong_start_is_L2),
