@@ -12,7 +12,8 @@ typedef struct problem {
 } problem;
 
 // Writes one line and returns `code`: TERM_USAGE (the input is to blame) or TERM_INVALID (the run
-// means nothing). What was there before may be among the arguments. Functions of the comparator return TERM_DONE or what this returned.
+// means nothing). What was there before may be among the arguments. Functions of the comparator
+// return TERM_DONE or what this returned.
 term_exit problem_set(problem *p, term_exit code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

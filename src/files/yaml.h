@@ -79,7 +79,7 @@ int bike_yaml_expect_mapping(const bike_yaml *yaml, const bike_field *field);
 int bike_yaml_expect_list(const bike_yaml *yaml, const bike_field *field);
 bool bike_yaml_is_mapping(const bike_field *field);
 bool bike_yaml_is_null(const bike_field *field);
-bool bike_yaml_is_empty_text(const bike_field *field); // '' or ""
+bool bike_yaml_is_empty_text(const bike_field *field);              // '' or ""
 bool bike_yaml_is_plain(const bike_field *field, const char *word); // without quotes
 bool bike_yaml_is_text(const bike_field *field, const char *word);  // with or without
 

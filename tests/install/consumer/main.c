@@ -7,10 +7,15 @@
 
 int main(void) {
   // w, c, lam, g, rR, mR, IRxx, IRyy, xB, zB, mB, IBxx, IByy, IBzz, IBxz, xH, zH, mH, ... rF ...
-  const double table1[BIKE_MEIJAARD_COUNT] = {
-      1.02, 0.08, 0.3141592653589793, 9.81, 0.3,  2,        0.0603,  0.12,  0.3,
-      -0.9, 85,   9.2,                11,   2.8,  2.4,      0.9,     -0.7,  4,
-      0.05892, 0.06, 0.00708,         -0.00756, 0.35, 3,    0.1405,  0.28};
+  const double table1[BIKE_MEIJAARD_COUNT] = {1.02,     0.08, 0.3141592653589793,
+                                              9.81,     0.3,  2,
+                                              0.0603,   0.12, 0.3,
+                                              -0.9,     85,   9.2,
+                                              11,       2.8,  2.4,
+                                              0.9,      -0.7, 4,
+                                              0.05892,  0.06, 0.00708,
+                                              -0.00756, 0.35, 3,
+                                              0.1405,   0.28};
   bike_bicycle bicycle;
   bike_model model;
   bike_critical_speeds found;
