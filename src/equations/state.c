@@ -1,193 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel in double, with its failures judged: what the library's users call.
+// What the library's users call: the instance of the processor at hand.
 #include <bicycle/error.h>
 #include <bicycle/state.h>
-#include <float.h>
+#include <stdatomic.h>
 
-#include "equations/number_double.h"
-#include "equations/rear_angle.h"
-
-static bool finite_state(const bike_state *s) {
-  return isfinite(s->lean + s->steer + s->lean_rate + s->steer_rate + s->speed);
-}
-
-static bool finite_input(const bike_input *in) {
-  return isfinite(in->steer_torque + in->roll_torque + in->rider_offset + in->rider_velocity +
-                  in->rider_acceleration);
-}
-
-static bool sways(const bike_input *in) {
-  return in->rider_offset != 0 || in->rider_velocity != 0 || in->rider_acceleration != 0;
-}
-
-// The pivots are those of a positive definite matrix; relative to the diagonal entry a pivot below
-// this is lost in the rounding of the entries (some tens of operations each).
-static const double SMALLEST_PIVOT = 64 * DBL_EPSILON;
-
-// Where the steering axis' point on the ground lies as far before the rear contact as behind the
-// front one, seen along the front wheel, the yaw rate (13) is not determined.
-static bool yaw_determined(const position *g, const bike_model *model) {
-  return fabs(g->D) > 64 * DBL_EPSILON * model->reach;
-}
-
-static bool regular(const kane *k) {
-  return k->pivot[0] > 0 && k->pivot[1] > SMALLEST_PIVOT * k->M[1] &&
-         k->pivot[2] > SMALLEST_PIVOT * k->M[0];
-}
-
-static form speeds_of(const bike_state *s) {
-  return (form){s->steer_rate, s->lean_rate, s->speed};
-}
-
-static load load_of(const bike_input *in) {
-  return (load){in->steer_torque, in->roll_torque, in->rider_offset, in->rider_velocity,
-                in->rider_acceleration};
-}
-
-// Solves the instant from the guess near upright; where the Newton steps were not enough, from a
-// start found by continuation.
-static int solve_state(instant *now, const bike_model *model, const bike_state *state,
-                       const bike_input *input) {
-  if (!finite_state(state) || !finite_input(input)) return BIKE_ERROR_NOT_FINITE;
-  if (model->rider_mass == 0 && sways(input)) return BIKE_ERROR_NO_RIDER;
-  load in = load_of(input);
-  start from = guessed(model, state->steer, state->lean);
-  solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
-  if (!rear_angle_found(&now->at, model)) {
-    int code = rear_angle_continued(&from, model, state->steer, state->lean);
-    if (code) return code;
-    solve_instant(now, model, from, state->steer, state->lean, speeds_of(state), &in);
-    if (!rear_angle_found(&now->at, model)) return BIKE_ERROR_GEOMETRY;
-  }
-  if (!yaw_determined(&now->at, model) || !regular(&now->k)) return BIKE_ERROR_SINGULAR;
-  form a = now->acceleration;
-  return isfinite(a.phi + a.kap + a.v) ? BIKE_OK : BIKE_ERROR_SINGULAR;
-}
-
-static bike_acceleration named(form a) {
-  return (bike_acceleration){.lean = a.kap, .steer = a.phi, .speed = a.v};
-}
-
-// Hinge rates relative to frame and fork, growing when rolling forward (about -e_N).
-static double rear_hinge(const instant *now) {
-  return now->rate.br - now->rate.spin_r - now->rate.yaw * now->at.s_kap;
-}
-
-static double front_hinge(const instant *now) {
-  return dot(now->k.velocity.turn, now->k.body.axle_f) - now->rate.spin_f;
-}
-
-static double power_of(const instant *now, const bike_model *m, const load *in) {
-  double phi = now->rate.u.phi;
-  double p = (in->steer_torque - m->steer_damping * phi) * phi + in->roll_torque * now->rate.u.kap;
-  return in->w1 == 0 ? p : p + rider_force(now, m) * in->w1;
-}
+#include "equations/state_instance.h"
 
 static const bike_input HANDS_OFF = {0};
+
+static const state_functions *const instances[] = {
+    [INSTRUCTIONS_BASELINE] = &state_baseline,
+#ifdef BICYCLE_X86_64_LEVELS
+    [INSTRUCTIONS_V3] = &state_v3,
+    [INSTRUCTIONS_V4] = &state_v4,
+#endif
+};
+
+// Asked a hundred million times in a map: kept, and no more than a load. Threads that decide at
+// once decide the same.
+static const state_functions *chosen(void) {
+  static _Atomic(const state_functions *) kept;
+  const state_functions *known = atomic_load_explicit(&kept, memory_order_relaxed);
+  if (known) return known;
+  known = instances[instruction_set_in_use()];
+  atomic_store_explicit(&kept, known, memory_order_relaxed);
+  return known;
+}
 
 int bike_accelerate(bike_acceleration *out, const bike_model *model, const bike_state *state,
                     const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  instant now;
-  int code = solve_state(&now, model, state, input ? input : &HANDS_OFF);
-  if (code) return code;
-  *out = named(now.acceleration);
-  return BIKE_OK;
+  return chosen()->accelerate(out, model, state, input ? input : &HANDS_OFF);
 }
 
 int bike_rates_of(bike_rates *out, const bike_model *model, const bike_state *state,
                   const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  if (!input) input = &HANDS_OFF;
-  instant now;
-  int code = solve_state(&now, model, state, input);
-  if (code) return code;
-  load in = load_of(input);
-  *out = (bike_rates){.acceleration = named(now.acceleration),
-                      .yaw = now.rate.yaw,
-                      .rear_angle = rear_hinge(&now),
-                      .front_angle = front_hinge(&now),
-                      .power = power_of(&now, model, &in)};
-  bool finite = isfinite(out->yaw + out->rear_angle + out->front_angle + out->power);
-  return finite ? BIKE_OK : BIKE_ERROR_NOT_FINITE;
+  return chosen()->rates_of(out, model, state, input ? input : &HANDS_OFF);
 }
 
 int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
                      double rider_offset) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  instant now;
-  bike_input input = {.rider_offset = rider_offset};
-  int code = solve_state(&now, model, state, &input);
-  if (code) return code;
-  const double *M = now.k.M; // phi phi, kap kap, v v, phi kap, phi v, kap v
-  double rows[9] = {M[1], M[3], M[5], M[3], M[0], M[4], M[5], M[4], M[2]};
-  for (int i = 0; i < 9; i++) out[i] = rows[i];
-  return BIKE_OK;
-}
-
-static void put_geometry(bike_snapshot *out, const instant *now, const bike_model *m) {
-  const position *g = &now->at;
-  out->beta_r = atan2(g->s_br, g->c_br);
-  out->beta_f = atan2(g->s_bf, g->c_bf);
-  out->psi = atan2(g->s_psi, g->c_psi);
-  out->phi_tilde = atan2(g->s_phit, g->c_phit);
-  out->pitch = m->tilt - out->beta_r;
-  out->T_r = g->T_r;
-  out->T_f = g->T_f;
-  out->Z_0 = g->Z_0;
-}
-
-static void put_rates(bike_snapshot *out, const instant *now, const bike_model *m) {
-  form a = now->acceleration;
-  out->acceleration = named(a);
-  out->yaw_rate = now->rate.yaw;
-  out->pitch_rate = -now->rate.br;
-  out->front_speed = now->rate.v_f;
-  out->rear_wheel_rate = rear_hinge(now);
-  out->front_wheel_rate = front_hinge(now);
-  out->yaw_acceleration = now->rest.yaw + applied(now->forms.yaw, a);
-  out->pitch_acceleration = -(now->rest.br + applied(now->forms.br, a));
-  // derivatives of the hinge rates; e_N turns with the frame, e_N^f with the fork
-  const masses *body = &now->k.body;
-  vec w = now->k.velocity.turn, al = accelerated(now, m).turn;
-  double fork = dot(al, body->axle_f) + now->rate.u.phi * dot(w, cross(body->axis, body->axle_f));
-  out->rear_wheel_acceleration = al.x - spin_up_rear(now);
-  out->front_wheel_acceleration = fork - spin_up_front(now);
-}
-
-static void put_force(double out[3], vec force) {
-  out[0] = force.x;
-  out[1] = force.y;
-  out[2] = force.z;
-}
-
-// Large but finite arguments may overflow in products that the accelerations do not hold.
-static bool finite_snapshot(const bike_snapshot *s) {
-  double sum = s->kinetic + s->potential + s->power + s->yaw_acceleration + s->pitch_acceleration +
-               s->rear_wheel_acceleration + s->front_wheel_acceleration + s->front_speed;
-  for (int i = 0; i < 3; i++) sum += s->rear_force[i] + s->front_force[i];
-  return isfinite(sum);
+  return chosen()->mass_matrix(out, model, state, rider_offset);
 }
 
 int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state *state,
                   const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  if (!input) input = &HANDS_OFF;
-  instant now;
-  int code = solve_state(&now, model, state, input);
-  if (code) return code;
-  load in = load_of(input);
-  bike_snapshot is;
-  put_geometry(&is, &now, model);
-  put_rates(&is, &now, model);
-  energy e = energy_of(&now, model, &in);
-  is.kinetic = e.kinetic;
-  is.potential = e.potential;
-  is.power = power_of(&now, model, &in);
-  ground forces = ground_forces(&now, model, &in);
-  put_force(is.rear_force, forces.rear);
-  put_force(is.front_force, forces.front);
-  if (!finite_snapshot(&is)) return BIKE_ERROR_NOT_FINITE;
-  *out = is;
-  return BIKE_OK;
+  return chosen()->evaluate(out, model, state, input ? input : &HANDS_OFF);
 }

@@ -26,10 +26,9 @@ typedef struct instant {
   form acceleration; // phi'', kappa'', v'
 } instant;
 
-static inline void solve_instant(instant *out, const kernel_model *m, start from, real phi,
-                                 real kappa, form u, const load *in) {
+// What follows from a position, which `locate` has put into out->at.
+static inline void solve_located(instant *out, const kernel_model *m, form u, const load *in) {
   const kernel_geometry *L = &m->geometry;
-  locate(&out->at, L, from, phi, kappa);
   rate_forms_of(&out->forms, &out->at, L);
   rates_at(&out->rate, &out->forms, &out->at, L, u);
   bias_of(&out->rest, &out->at, L, &out->rate);
@@ -42,6 +41,12 @@ static inline void solve_instant(instant *out, const kernel_model *m, start from
   need_at_rest(k, m, &out->rate, in);
   forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest, in);
   out->acceleration = solved(k);
+}
+
+static inline void solve_instant(instant *out, const kernel_model *m, start from, real phi,
+                                 real kappa, form u, const load *in) {
+  locate(&out->at, &m->geometry, from, phi, kappa);
+  solve_located(out, m, u, in);
 }
 
 #endif
