@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "equations/instruction_set.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,10 +19,19 @@ instruction_set instruction_set_best(void) {
   return INSTRUCTIONS_BASELINE;
 }
 
-instruction_set instruction_set_in_use(void) {
+static instruction_set decided(void) {
   instruction_set best = instruction_set_best();
   const char *asked = getenv("BICYCLE_INSTRUCTIONS");
   for (instruction_set set = INSTRUCTIONS_BASELINE; asked && set <= best; set++)
     if (!strcmp(asked, names[set])) return set;
   return best;
+}
+
+instruction_set instruction_set_in_use(void) {
+  static atomic_int kept = -1;
+  int known = atomic_load_explicit(&kept, memory_order_relaxed);
+  if (known >= 0) return (instruction_set)known;
+  // the first of several threads decides for all
+  int none = -1, mine = (int)decided();
+  return (instruction_set)(atomic_compare_exchange_strong(&kept, &none, mine) ? mine : none);
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bicycle/batch.h>
+
+#include <bicycle/error.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "batch/lanes.h"
+#include "equations/instruction_set.h"
+
+struct bike_batch {
+  const lanes_functions *lanes;
+  size_t model_count;
+  bike_model *models; // for what the lanes cannot solve
+  char *blocks;       // lanes_models, one after the other
+};
+
+int bike_batch_width(void) {
+  return lanes_in_use()->width;
+}
+
+const char *bike_instructions(void) {
+  return instruction_set_string(instruction_set_in_use());
+}
+
+static lanes_models *block_at(const bike_batch *b, size_t i) {
+  return (lanes_models *)(b->blocks + i * b->lanes->block_size);
+}
+
+// The last block's spare lanes hold the last bicycle once more.
+static void pack_all(bike_batch *b) {
+  size_t width = (size_t)b->lanes->width, last = b->model_count - 1;
+  for (size_t k = 0; k * width <= last; k++)
+    for (size_t i = 0; i < width; i++) {
+      size_t which = k * width + i < last ? k * width + i : last;
+      b->lanes->pack(block_at(b, k), &b->models[which], (int)i);
+    }
+}
+
+int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_count) {
+  if (!out || !models || model_count == 0) return BIKE_ERROR_ARGUMENT;
+  bike_batch *b = calloc(1, sizeof *b);
+  if (!b) return BIKE_ERROR_MEMORY;
+  b->lanes = lanes_in_use();
+  b->model_count = model_count;
+  size_t width = (size_t)b->lanes->width;
+  size_t blocks = (model_count - 1) / width + 1;
+  b->models = calloc(model_count, sizeof *models);
+  if (blocks <= SIZE_MAX / b->lanes->block_size)
+    b->blocks = aligned_alloc(64, blocks * b->lanes->block_size);
+  if (!b->models || !b->blocks) {
+    bike_batch_free(b);
+    return BIKE_ERROR_MEMORY;
+  }
+  memcpy(b->models, models, model_count * sizeof *models);
+  pack_all(b);
+  *out = b;
+  return BIKE_OK;
+}
+
+void bike_batch_free(bike_batch *b) {
+  if (!b) return;
+  free(b->models);
+  free(b->blocks);
+  free(b);
+}
+
+static void put(bike_batch_accelerations *out, size_t i, int code, const bike_acceleration *a) {
+  out->lean[i] = code ? NAN : a->lean;
+  out->steer[i] = code ? NAN : a->steer;
+  out->speed[i] = code ? NAN : a->speed;
+  if (out->codes) out->codes[i] = code;
+}
+
+// What a lane has not solved, the scalar path does, or says why not.
+static void solve_alone(bike_batch_accelerations *out, const bike_batch *b,
+                        const bike_batch_states *s, size_t i) {
+  const bike_model *model = &b->models[b->model_count == 1 ? 0 : i];
+  bike_state state = {.lean = s->lean[i],
+                      .steer = s->steer[i],
+                      .lean_rate = s->lean_rate[i],
+                      .steer_rate = s->steer_rate[i],
+                      .speed = s->speed[i]};
+  bike_acceleration a;
+  int code = bike_accelerate(&a, model, &state, NULL);
+  put(out, i, code, &a);
+}
+
+typedef struct block_view {
+  const double *state[LANES_STATE];
+  double *out[LANES_ACCELERATIONS];
+} block_view;
+
+static block_view view_of(const bike_batch_accelerations *out, const bike_batch_states *s,
+                          size_t first) {
+  return (block_view){.state = {[LANES_LEAN] = s->lean + first,
+                                [LANES_STEER] = s->steer + first,
+                                [LANES_LEAN_RATE] = s->lean_rate + first,
+                                [LANES_STEER_RATE] = s->steer_rate + first,
+                                [LANES_SPEED] = s->speed + first},
+                      .out = {[LANES_LEAN_ACC] = out->lean + first,
+                              [LANES_STEER_ACC] = out->steer + first,
+                              [LANES_SPEED_RATE] = out->speed + first}};
+}
+
+// Fewer states than lanes: spare lanes hold the first of them.
+static unsigned solve_part(const bike_batch *b, const lanes_models *block, const block_view *view,
+                           size_t used) {
+  double state[LANES_STATE][LANES_MOST], out[LANES_ACCELERATIONS][LANES_MOST];
+  block_view padded;
+  for (int k = 0; k < LANES_STATE; k++) {
+    for (int i = 0; i < LANES_MOST; i++) state[k][i] = view->state[k][(size_t)i < used ? i : 0];
+    padded.state[k] = state[k];
+  }
+  for (int k = 0; k < LANES_ACCELERATIONS; k++) padded.out[k] = out[k];
+  unsigned solved = b->lanes->accelerate(padded.out, block, padded.state);
+  for (int k = 0; k < LANES_ACCELERATIONS; k++) memcpy(view->out[k], out[k], used * sizeof(double));
+  return solved;
+}
+
+// States first .. first + used, as many as lanes or fewer.
+static void solve_block(bike_batch_accelerations *out, const bike_batch *b,
+                        const bike_batch_states *s, size_t first, size_t used) {
+  size_t width = (size_t)b->lanes->width;
+  const lanes_models *block = block_at(b, b->model_count == 1 ? 0 : first / width);
+  block_view view = view_of(out, s, first);
+  unsigned solved = used == width ? b->lanes->accelerate(view.out, block, view.state)
+                                  : solve_part(b, block, &view, used);
+  if (out->codes) memset(out->codes + first, 0, used * sizeof *out->codes); // BIKE_OK
+  unsigned all = (1u << used) - 1;
+  for (size_t i = 0; (solved & all) != all && i < used; i++)
+    if (!(solved >> i & 1)) solve_alone(out, b, s, first + i);
+}
+
+int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
+                          const bike_batch_states *states, size_t count) {
+  if (!out || !batch || !states) return BIKE_ERROR_ARGUMENT;
+  if (batch->model_count != 1 && count != batch->model_count) return BIKE_ERROR_ARGUMENT;
+  size_t width = (size_t)batch->lanes->width;
+  for (size_t first = 0; first < count; first += width) {
+    size_t left = count - first;
+    solve_block(out, batch, states, first, left < width ? left : width);
+  }
+  return BIKE_OK;
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions of one instance, before they stand in its struct.
+#ifndef BICYCLE_BATCH_LANES_INSTANCE_H
+#define BICYCLE_BATCH_LANES_INSTANCE_H
+
+#include "batch/lanes.h"
+#include "equations/instruction_set.h"
+
+void INSTANCE(lanes_pack)(lanes_models *block, const bike_model *model, int lane);
+unsigned INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS],
+                                    const lanes_models *block,
+                                    const double *const state[LANES_STATE]);
+void INSTANCE(lanes_ride)(const lanes_ride_def *def);
+
+#endif

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rides in lanes: the Runge-Kutta pair of order 8(7), each lane with a time, a step and an error
+// control of its own; a lane that has ended takes the next ride.
+#include "batch/lanes_block.h"
+#include "batch/lanes_instance.h"
+#include "motion/ride_table.h"
+
+#include <math.h>
+
+// The first step, s; the error control finds the right one within two or three.
+static const double FIRST_STEP = 0.01;
+// A step is aimed at this share of the allowed error's root, and changes by no more than these.
+static const double SAFETY = 0.9, SHRINK = 0.2, GROW = 5;
+// Steps below this, s, are left to the ride that knows why.
+static const double SMALLEST_STEP = 1e-6;
+// As the model's edge of a single ride (ride_event.c): this share of |T_r| + |T_f|.
+static const double EDGE = 1e-3;
+
+typedef struct book {
+  size_t member;
+  bool alive, lifted;
+  int quiet;
+  long looks, steps, evaluations;
+} book;
+
+typedef struct pen {
+  lanes_models block;
+  load in;
+  real side;
+  real t, h;
+  real y[LANES_STATE];
+  start from;                         // beta_r of the last evaluation at the start of a step
+  real before_t, before[LANES_STATE]; // before the last accepted step
+  book books[LANES];
+} pen;
+
+static inline lanes_mask rates_in_lanes(real dy[LANES_STATE], instant *now, const pen *p,
+                                        const real *y) {
+  form u = {y[LANES_STEER_RATE], y[LANES_LEAN_RATE], y[LANES_SPEED]};
+  solve_instant(now, &p->block.model, p->from, y[LANES_STEER], y[LANES_LEAN], u, &p->in);
+  dy[LANES_LEAN] = y[LANES_LEAN_RATE];
+  dy[LANES_STEER] = y[LANES_STEER_RATE];
+  dy[LANES_LEAN_RATE] = now->acceleration.kap;
+  dy[LANES_STEER_RATE] = now->acceleration.phi;
+  dy[LANES_SPEED] = now->acceleration.v;
+  real sum = dy[LANES_LEAN_RATE] + dy[LANES_STEER_RATE] + dy[LANES_SPEED];
+  return lanes_found(&now->at, p->block.reach) & (now->at.D * p->side > 0.0 * sum) &
+         (sum - sum == 0.0 * p->side);
+}
+
+// to = y + h sum_j w_j k_j
+static inline void combine(real to[LANES_STATE], const real y[LANES_STATE], real h, const double *w,
+                           real k[][LANES_STATE], int stages) {
+  real sum[LANES_STATE] = {0};
+  for (int j = 0; j < stages; j++) {
+    if (w[j] == 0) continue;
+    for (int i = 0; i < LANES_STATE; i++) sum[i] += w[j] * k[j][i];
+  }
+  for (int i = 0; i < LANES_STATE; i++) to[i] = y[i] + h * sum[i];
+}
+
+typedef struct trial {
+  real y[LANES_STATE];
+  real error;          // in units of what is allowed
+  lanes_mask solved;   // all stages
+  lanes_mask at_start; // the first stage
+  lanes_mask inside;   // not at the model's edge at the start
+  lanes_mask aloft;    // a wheel is pulled on at the start
+} trial;
+
+// The largest error of a component, in units of rtol |y| + atol.
+static inline real error_of(const trial *tr, const pen *p, real h, real k[][LANES_STATE],
+                            const lanes_ride_def *def) {
+  const ride_table *table = &RIDE_TABLE_8;
+  double gap[RIDE_MAX_STAGES];
+  for (int j = 0; j < table->stages; j++) gap[j] = table->b[j] - table->d[j];
+  real nought[LANES_STATE] = {0}, wrong[LANES_STATE], most = nought[0];
+  combine(wrong, nought, h, gap, k, table->stages);
+  for (int i = 0; i < LANES_STATE; i++) {
+    real size = lanes_max(lanes_abs(p->y[i]), lanes_abs(tr->y[i]));
+    most = lanes_max(most, lanes_abs(wrong[i]) / (def->rtol * size + def->atol));
+  }
+  return most;
+}
+
+__attribute__((noinline)) static lanes_mask one_stage(real dy[LANES_STATE], const pen *p,
+                                                      const real *y) {
+  instant now;
+  return rates_in_lanes(dy, &now, p, y);
+}
+
+// The first stage also tells where the bicycle stands.
+__attribute__((noinline)) static void first_stage(trial *tr, real dy[LANES_STATE], pen *p,
+                                                  bool watch_lift) {
+  instant now;
+  tr->at_start = rates_in_lanes(dy, &now, p, p->y);
+  const position *g = &now.at;
+  tr->inside = (g->D * p->side > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f))) &
+               (g->Q > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f)));
+  p->from.s = lanes_either(tr->at_start, g->s_br, p->from.s);
+  p->from.c = lanes_either(tr->at_start, g->c_br, p->from.c);
+  tr->aloft = (lanes_mask){0};
+  if (!watch_lift) return;
+  ground forces = ground_forces(&now, &p->block.model, &p->in);
+  tr->aloft = (forces.rear.z < 0.0 * p->side) | (forces.front.z < 0.0 * p->side);
+}
+
+static void try_step(trial *tr, pen *p, real h, const lanes_ride_def *def) {
+  const ride_table *table = &RIDE_TABLE_8;
+  real k[RIDE_MAX_STAGES][LANES_STATE];
+  first_stage(tr, k[0], p, def->watch_lift);
+  tr->solved = tr->at_start;
+  for (int s = 1; s < table->stages; s++) {
+    real stage[LANES_STATE];
+    combine(stage, p->y, h, table->A[s], k, s);
+    tr->solved &= one_stage(k[s], p, stage);
+  }
+  combine(tr->y, p->y, h, table->b, k, table->stages);
+  tr->error = error_of(tr, p, h, k, def);
+}
+
+static bike_state state_of(const real y[LANES_STATE], int lane) {
+  return (bike_state){.lean = y[LANES_LEAN][lane],
+                      .steer = y[LANES_STEER][lane],
+                      .lean_rate = y[LANES_LEAN_RATE][lane],
+                      .steer_rate = y[LANES_STEER_RATE][lane],
+                      .speed = y[LANES_SPEED][lane]};
+}
+
+static void take_next(pen *p, int lane, const lanes_ride_def *def) {
+  lanes_rider r;
+  book *b = &p->books[lane];
+  if (!def->next(&r, def->user)) {
+    b->alive = false;
+    return;
+  }
+  *b = (book){.member = r.member, .alive = true};
+  INSTANCE(lanes_pack)(&p->block, r.model, lane);
+  const double y[LANES_STATE] = {[LANES_LEAN] = r.state.lean,
+                                 [LANES_STEER] = r.state.steer,
+                                 [LANES_LEAN_RATE] = r.state.lean_rate,
+                                 [LANES_STEER_RATE] = r.state.steer_rate,
+                                 [LANES_SPEED] = r.state.speed};
+  for (int i = 0; i < LANES_STATE; i++) p->before[i][lane] = p->y[i][lane] = y[i];
+  p->before_t[lane] = p->t[lane] = 0;
+  p->h[lane] = FIRST_STEP;
+  p->side[lane] = r.side;
+  p->from.s[lane] = r.rear_angle[0];
+  p->from.c[lane] = r.rear_angle[1];
+  p->in.w[lane] = r.w;
+  p->in.steer_torque[lane] = r.steer_torque;
+  p->in.roll_torque[lane] = r.roll_torque;
+}
+
+static void finish(pen *p, int lane, lanes_end end, const lanes_ride_def *def) {
+  const book *b = &p->books[lane];
+  bool back = end == LANES_EVENT;
+  lanes_ended ended = {.member = b->member,
+                       .end = end,
+                       .time = back ? p->before_t[lane] : p->t[lane],
+                       .state = state_of(back ? p->before : p->y, lane),
+                       .lifted = b->lifted,
+                       .steps = b->steps,
+                       .evaluations = b->evaluations};
+  def->done(&ended, def->user);
+  take_next(p, lane, def);
+}
+
+// Where a lane's next step must end at the latest.
+static double stop_of(const book *b, const lanes_ride_def *def) {
+  double look = def->look > 0 ? (double)(b->looks + 1) * def->look : INFINITY;
+  return fmin(def->duration, look);
+}
+
+static bool is_quiet(const bike_state *s, double settled) {
+  return fabs(s->lean) < settled && fabs(s->steer) < settled && fabs(s->lean_rate) < settled &&
+         fabs(s->steer_rate) < settled;
+}
+
+// Whether the ride goes on after an accepted step; `landed`: at its stop.
+static bool goes_on(lanes_end *end, pen *p, int lane, bool landed, const lanes_ride_def *def) {
+  book *b = &p->books[lane];
+  bike_state now = state_of(p->y, lane);
+  *end = LANES_EVENT;
+  bool stopped = p->before[LANES_SPEED][lane] * now.speed < 0;
+  if (!(fabs(now.lean) < def->lean_limit) || stopped) return false;
+  if (!landed) return true;
+  *end = LANES_COMPLETE;
+  if (p->t[lane] >= def->duration) return false;
+  b->looks++;
+  b->quiet = is_quiet(&now, def->settled) ? b->quiet + 1 : 0;
+  *end = LANES_SETTLED;
+  return b->quiet < def->looks_settled;
+}
+
+static void accept(pen *p, int lane, const trial *tr, double h, double stop, bool landed) {
+  p->before_t[lane] = p->t[lane];
+  p->t[lane] = landed ? stop : p->t[lane] + h;
+  for (int i = 0; i < LANES_STATE; i++) {
+    p->before[i][lane] = p->y[i][lane];
+    p->y[i][lane] = tr->y[i][lane];
+  }
+  p->books[lane].steps++;
+}
+
+// The step after one of length h: error ~ h^8.
+static double next_step(double h, double error) {
+  double factor = error > 0 ? SAFETY * pow(error, -1.0 / 8) : GROW;
+  return h * fmin(GROW, fmax(SHRINK, factor));
+}
+
+static void judge_lane(pen *p, int lane, const trial *tr, double h, bool landed,
+                       const lanes_ride_def *def) {
+  book *b = &p->books[lane];
+  b->evaluations += RIDE_TABLE_8.stages;
+  b->lifted |= tr->aloft[lane] != 0;
+  lanes_end end = LANES_EVENT;
+  bool ends = !tr->at_start[lane] || !tr->inside[lane];
+  bool good = tr->solved[lane] && tr->error[lane] <= 1;
+  if (!ends && good) {
+    // a step cut short to land tells little of how long the next may be
+    double next = next_step(h, tr->error[lane]);
+    p->h[lane] = landed ? fmax(p->h[lane], next) : next;
+    accept(p, lane, tr, h, stop_of(b, def), landed);
+    ends = !goes_on(&end, p, lane, landed, def);
+  } else if (!ends) {
+    p->h[lane] = tr->solved[lane] ? next_step(h, tr->error[lane]) : SHRINK * h;
+    ends = !(p->h[lane] > SMALLEST_STEP);
+    // from here, not from before the last step
+    if (ends) {
+      p->before_t[lane] = p->t[lane];
+      for (int i = 0; i < LANES_STATE; i++) p->before[i][lane] = p->y[i][lane];
+    }
+  }
+  if (ends) finish(p, lane, end, def);
+}
+
+static bool any_alive(const pen *p) {
+  for (int i = 0; i < LANES; i++)
+    if (p->books[i].alive) return true;
+  return false;
+}
+
+void INSTANCE(lanes_ride)(const lanes_ride_def *def) {
+  pen p = {0};
+  for (int i = 0; i < LANES; i++) take_next(&p, i, def);
+  while (any_alive(&p)) {
+    real h = p.h;
+    bool landed[LANES];
+    for (int i = 0; i < LANES; i++) {
+      double rest = stop_of(&p.books[i], def) - p.t[i];
+      // a rest hardly longer than the step is taken with it
+      landed[i] = rest <= h[i] * (1 + 1e-9);
+      if (landed[i]) h[i] = rest;
+    }
+    trial tr;
+    try_step(&tr, &p, h, def);
+    for (int i = 0; i < LANES; i++)
+      if (p.books[i].alive) judge_lane(&p, i, &tr, h[i], landed[i], def);
+  }
+}

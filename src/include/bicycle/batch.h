@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Accelerations of many bicycles, or of many states of one, by vector instructions: several at a
+// time in the lanes of a register, from the same equations as bike_accelerate.
+#ifndef BICYCLE_BATCH_H
+#define BICYCLE_BATCH_H
+
+#include <bicycle/state.h>
+#include <stddef.h>
+
+// Bicycles made ready for the lanes.
+typedef struct bike_batch bike_batch;
+
+// Arrays of `count` numbers each, units and signs as in bike_state.
+typedef struct bike_batch_states {
+  const double *lean, *steer;           // rad
+  const double *lean_rate, *steer_rate; // rad/s
+  const double *speed;                  // m/s
+} bike_batch_states;
+
+// As bike_acceleration; `codes` (may be NULL) receives for each what bike_accelerate returns for
+// it; where that is an error the accelerations are NaN.
+typedef struct bike_batch_accelerations {
+  double *lean, *steer; // rad/s^2
+  double *speed;        // m/s^2
+  int *codes;
+} bike_batch_accelerations;
+
+// model_count = 1: all states are of this bicycle; otherwise state i is of bicycle i. Copies the
+// models. Errors: ARGUMENT, MEMORY.
+BIKE_API int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_count);
+BIKE_API void bike_batch_free(bike_batch *batch);
+
+// Hands off. Differs from bike_accelerate by rounding: below 1e-13 max(1, |acceleration|) unless
+// the state is close to a singular one. Each result depends on its own state and bicycle alone.
+// Errors: ARGUMENT (also for a count that is not that of the bicycles).
+BIKE_API int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
+                                   const bike_batch_states *states, size_t count);
+
+// How many at a time on this machine, and by which instructions: 8 "v4" (x86-64-v4: AVX-512),
+// 4 "v3" (AVX2), 2 "baseline". The environment variable BICYCLE_INSTRUCTIONS asks for a lower one
+// by its name, for results that are the same to the last bit on different machines. It holds for
+// all of the library and is read once.
+BIKE_API int bike_batch_width(void);
+BIKE_API const char *bike_instructions(void);
+
+#endif
