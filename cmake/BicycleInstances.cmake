@@ -8,6 +8,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
 endif()
 
 set(BICYCLE_KERNEL_FLAGS -ffp-contract=fast -fno-math-errno -fno-trapping-math
+  # pairs found in straight-line code cost more shuffles than they save: 3 % of a right-hand side
+  -fno-tree-slp-vectorize
   # complex products and quotients without the search for infinities, for the complex step
   $<$<C_COMPILER_ID:GNU>:-fcx-limited-range>
   # vectors pass between static functions only, where the ABI does not matter

@@ -28,9 +28,12 @@ typedef struct lanes_rider {
 } lanes_rider;
 
 typedef enum lanes_end {
-  LANES_COMPLETE, // the duration is over
-  LANES_SETTLED,  // rides straight
-  LANES_EVENT     // something ends the ride within the step after `state`, or the lanes cannot tell
+  LANES_COMPLETE,   // the duration is over
+  LANES_SETTLED,    // rides straight
+  LANES_LEAN_LIMIT, // and so on: as of bike_ride
+  LANES_VALIDITY,
+  LANES_STANDSTILL,
+  LANES_UNDECIDED // no step from `state` on is accurate: the lanes cannot tell why
 } lanes_end;
 
 // What became of it.

@@ -11,16 +11,21 @@
 static const double FIRST_STEP = 0.01;
 // A step is aimed at this share of the allowed error's root, and changes by no more than these.
 static const double SAFETY = 0.9, SHRINK = 0.2, GROW = 5;
-// Steps below this, s, are left to the ride that knows why.
-static const double SMALLEST_STEP = 1e-6;
+// Where no step as short as this, s, is accurate, the ride is left to those who know why.
+static const double SMALLEST_STEP = 1e-9;
+// A ride's end is found by going back before it and on in steps cut by this, until one so short, s,
+// leads there.
+static const double APPROACH = 0.25, RESOLUTION = 1e-9;
 // As the model's edge of a single ride (ride_event.c): this share of |T_r| + |T_f|.
 static const double EDGE = 1e-3;
 
 typedef struct book {
   size_t member;
   bool alive, lifted;
-  int quiet;
-  long looks, steps, evaluations;
+  int quiet, quiet_before; // looks in a row; before the last accepted step
+  long looks, looks_before;
+  double longest; // s  of a step, once an end is near
+  long steps, evaluations;
 } book;
 
 typedef struct pen {
@@ -127,6 +132,11 @@ static bike_state state_of(const real y[LANES_STATE], int lane) {
                       .speed = y[LANES_SPEED][lane]};
 }
 
+static bool is_quiet(const bike_state *s, double settled) {
+  return fabs(s->lean) < settled && fabs(s->steer) < settled && fabs(s->lean_rate) < settled &&
+         fabs(s->steer_rate) < settled;
+}
+
 static void take_next(pen *p, int lane, const lanes_ride_def *def) {
   lanes_rider r;
   book *b = &p->books[lane];
@@ -134,7 +144,7 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
     b->alive = false;
     return;
   }
-  *b = (book){.member = r.member, .alive = true};
+  *b = (book){.member = r.member, .alive = true, .longest = INFINITY};
   INSTANCE(lanes_pack)(&p->block, r.model, lane);
   const double y[LANES_STATE] = {[LANES_LEAN] = r.state.lean,
                                  [LANES_STEER] = r.state.steer,
@@ -142,6 +152,7 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
                                  [LANES_STEER_RATE] = r.state.steer_rate,
                                  [LANES_SPEED] = r.state.speed};
   for (int i = 0; i < LANES_STATE; i++) p->before[i][lane] = p->y[i][lane] = y[i];
+  b->quiet = is_quiet(&r.state, def->settled);
   p->before_t[lane] = p->t[lane] = 0;
   p->h[lane] = FIRST_STEP;
   p->side[lane] = r.side;
@@ -154,11 +165,10 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
 
 static void finish(pen *p, int lane, lanes_end end, const lanes_ride_def *def) {
   const book *b = &p->books[lane];
-  bool back = end == LANES_EVENT;
   lanes_ended ended = {.member = b->member,
                        .end = end,
-                       .time = back ? p->before_t[lane] : p->t[lane],
-                       .state = state_of(back ? p->before : p->y, lane),
+                       .time = p->t[lane],
+                       .state = state_of(p->y, lane),
                        .lifted = b->lifted,
                        .steps = b->steps,
                        .evaluations = b->evaluations};
@@ -172,35 +182,51 @@ static double stop_of(const book *b, const lanes_ride_def *def) {
   return fmin(def->duration, look);
 }
 
-static bool is_quiet(const bike_state *s, double settled) {
-  return fabs(s->lean) < settled && fabs(s->steer) < settled && fabs(s->lean_rate) < settled &&
-         fabs(s->steer_rate) < settled;
+// Whether the last accepted step has led beyond an end; which.
+static bool has_ended(lanes_end *end, const pen *p, int lane, const lanes_ride_def *def) {
+  bool fallen = !(fabs(p->y[LANES_LEAN][lane]) < def->lean_limit);
+  *end = fallen ? LANES_LEAN_LIMIT : LANES_STANDSTILL;
+  return fallen || p->before[LANES_SPEED][lane] * p->y[LANES_SPEED][lane] < 0;
 }
 
-// Whether the ride goes on after an accepted step; `landed`: at its stop.
-static bool goes_on(lanes_end *end, pen *p, int lane, bool landed, const lanes_ride_def *def) {
+// Goes back before the last accepted step, which led beyond an end; false: it was so short that the
+// end is here.
+static bool retreat(pen *p, int lane) {
   book *b = &p->books[lane];
-  bike_state now = state_of(p->y, lane);
-  *end = LANES_EVENT;
-  bool stopped = p->before[LANES_SPEED][lane] * now.speed < 0;
-  if (!(fabs(now.lean) < def->lean_limit) || stopped) return false;
-  if (!landed) return true;
+  double h = p->t[lane] - p->before_t[lane];
+  if (!(h > RESOLUTION)) return false;
+  p->t[lane] = p->before_t[lane];
+  for (int i = 0; i < LANES_STATE; i++) p->y[i][lane] = p->before[i][lane];
+  b->looks = b->looks_before;
+  b->quiet = b->quiet_before;
+  b->steps--;
+  p->h[lane] = b->longest = APPROACH * h;
+  return true;
+}
+
+// A step has landed at its stop: is the ride over, or straight?
+static bool is_over(lanes_end *end, pen *p, int lane, const lanes_ride_def *def) {
+  book *b = &p->books[lane];
   *end = LANES_COMPLETE;
-  if (p->t[lane] >= def->duration) return false;
+  if (p->t[lane] >= def->duration) return true;
+  bike_state now = state_of(p->y, lane);
   b->looks++;
   b->quiet = is_quiet(&now, def->settled) ? b->quiet + 1 : 0;
   *end = LANES_SETTLED;
-  return b->quiet < def->looks_settled;
+  return b->quiet >= def->looks_settled;
 }
 
 static void accept(pen *p, int lane, const trial *tr, double h, double stop, bool landed) {
+  book *b = &p->books[lane];
   p->before_t[lane] = p->t[lane];
   p->t[lane] = landed ? stop : p->t[lane] + h;
   for (int i = 0; i < LANES_STATE; i++) {
     p->before[i][lane] = p->y[i][lane];
     p->y[i][lane] = tr->y[i][lane];
   }
-  p->books[lane].steps++;
+  b->looks_before = b->looks;
+  b->quiet_before = b->quiet;
+  b->steps++;
 }
 
 // The step after one of length h: error ~ h^8.
@@ -209,30 +235,39 @@ static double next_step(double h, double error) {
   return h * fmin(GROW, fmax(SHRINK, factor));
 }
 
+static void judge_accepted(pen *p, int lane, const trial *tr, double h, bool landed,
+                           const lanes_ride_def *def) {
+  book *b = &p->books[lane];
+  lanes_end end;
+  // a step cut short to land tells little of how long the next may be
+  double next = next_step(h, tr->error[lane]);
+  p->h[lane] = fmin(b->longest, landed ? fmax(p->h[lane], next) : next);
+  accept(p, lane, tr, h, stop_of(b, def), landed);
+  bool over = has_ended(&end, p, lane, def);
+  if (over)
+    over = !retreat(p, lane);
+  else
+    over = landed && is_over(&end, p, lane, def);
+  if (over) finish(p, lane, end, def);
+}
+
 static void judge_lane(pen *p, int lane, const trial *tr, double h, bool landed,
                        const lanes_ride_def *def) {
   book *b = &p->books[lane];
   b->evaluations += RIDE_TABLE_8.stages;
-  b->lifted |= tr->aloft[lane] != 0;
-  lanes_end end = LANES_EVENT;
-  bool ends = !tr->at_start[lane] || !tr->inside[lane];
-  bool good = tr->solved[lane] && tr->error[lane] <= 1;
-  if (!ends && good) {
-    // a step cut short to land tells little of how long the next may be
-    double next = next_step(h, tr->error[lane]);
-    p->h[lane] = landed ? fmax(p->h[lane], next) : next;
-    accept(p, lane, tr, h, stop_of(b, def), landed);
-    ends = !goes_on(&end, p, lane, landed, def);
-  } else if (!ends) {
-    p->h[lane] = tr->solved[lane] ? next_step(h, tr->error[lane]) : SHRINK * h;
-    ends = !(p->h[lane] > SMALLEST_STEP);
-    // from here, not from before the last step
-    if (ends) {
-      p->before_t[lane] = p->t[lane];
-      for (int i = 0; i < LANES_STATE; i++) p->before[i][lane] = p->y[i][lane];
-    }
+  if (!tr->at_start[lane] || !tr->inside[lane]) {
+    bool started = b->steps > 0; // otherwise there is nothing to go back to
+    if (!started || !retreat(p, lane))
+      finish(p, lane, started ? LANES_VALIDITY : LANES_UNDECIDED, def);
+    return;
   }
-  if (ends) finish(p, lane, end, def);
+  b->lifted |= tr->aloft[lane] != 0;
+  if (tr->solved[lane] && tr->error[lane] <= 1) {
+    judge_accepted(p, lane, tr, h, landed, def);
+    return;
+  }
+  p->h[lane] = tr->solved[lane] ? next_step(h, tr->error[lane]) : SHRINK * h;
+  if (!(p->h[lane] > SMALLEST_STEP)) finish(p, lane, LANES_UNDECIDED, def);
 }
 
 static bool any_alive(const pen *p) {

@@ -5,7 +5,7 @@
 
 #include <bicycle/state.h>
 
-enum { INSTANCE_LANES = 4 };
+enum { INSTANCE_LANES = 8 }; // as many as any register holds; more than one go where it holds fewer
 
 // What a state gives: phi'', kappa'', v', the kinetic and potential energy, and the ground forces.
 enum { INSTANCE_RESULTS = 11 };
