@@ -68,6 +68,13 @@ typedef struct lanes_functions {
   // geometry.
   unsigned (*accelerate)(double *const out[LANES_ACCELERATIONS], const lanes_models *block,
                          const double *const state[LANES_STATE]);
+  // Stationary motion, hands off: steer and rider offset go in as guesses. Bit i: lane i has come
+  // to an end of Newton's method; whether near its guess is the caller's to judge.
+  unsigned (*turn)(double *steer, double *offset, const lanes_models *block, const double *speed,
+                   const double *lean);
+  // Eigenvalues of q'' = C q' + K q, in [entry * width + lane]: entries of K and C are row-major;
+  // re and im have four, in no order, and conjugate to rounding only. Bit i: lane i is done.
+  unsigned (*eigenvalues)(double *re, double *im, const double *K, const double *C);
   // Rides all that `next` gives, each with its own steps: what becomes of one does not depend on
   // its neighbours.
   void (*ride)(const lanes_ride_def *def);

@@ -12,13 +12,6 @@ void INSTANCE(lanes_pack)(lanes_models *block, const bike_model *model, int lane
   block->has_rider[lane] = model->rider_mass;
 }
 
-// Arrays of users need not be aligned as vectors are.
-static inline real loaded(const double *from) {
-  real x;
-  memcpy(&x, from, sizeof x);
-  return x;
-}
-
 // What the scalar path judges as singular is left to it.
 static inline lanes_mask regular(const instant *now, real reach) {
   const double least = 64 * 2.220446049250313e-16; // as there

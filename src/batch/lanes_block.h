@@ -15,6 +15,13 @@ struct lanes_models {
   real has_rider; // kg
 };
 
+// Arrays of users need not be aligned as vectors are.
+static inline real loaded(const double *from) {
+  real x;
+  memcpy(&x, from, sizeof x);
+  return x;
+}
+
 // As rear_angle_found.
 static inline lanes_mask lanes_found(const position *g, real reach) {
   const double tolerance = 4 * 2.220446049250313e-16, flat = 1e-9;

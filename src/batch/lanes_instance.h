@@ -10,6 +10,9 @@ void INSTANCE(lanes_pack)(lanes_models *block, const bike_model *model, int lane
 unsigned INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS],
                                     const lanes_models *block,
                                     const double *const state[LANES_STATE]);
+unsigned INSTANCE(lanes_turn)(double *steer, double *offset, const lanes_models *block,
+                              const double *speed, const double *lean);
+unsigned INSTANCE(lanes_eigenvalues)(double *re, double *im, const double *K, const double *C);
 void INSTANCE(lanes_ride)(const lanes_ride_def *def);
 
 #endif

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accelerations of many bicycles, or of many states of one, by vector instructions: several at a
-// time in the lanes of a register, from the same equations as bike_accelerate.
+// Accelerations of many bicycles, or of many states of one, and stability at many states, by vector
+// instructions: several at a time in the lanes of a register, from the same equations as
+// bike_accelerate and bike_linearize.
 #ifndef BICYCLE_BATCH_H
 #define BICYCLE_BATCH_H
 
-#include <bicycle/state.h>
+#include <bicycle/stability.h>
 #include <stddef.h>
 
 // Bicycles made ready for the lanes.
@@ -35,6 +36,17 @@ BIKE_API void bike_batch_free(bike_batch *batch);
 // Errors: ARGUMENT (also for a count that is not that of the bicycles).
 BIKE_API int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
                                    const bike_batch_states *states, size_t count);
+
+// bike_linearize at many states of one bicycle, by exact forward tangents: the same to rounding.
+// `inputs` may be NULL: hands off. codes[i] (not NULL) is what bike_linearize returns for state i;
+// out[i] is untouched where that is an error.
+BIKE_API int bike_batch_linearize(bike_linear *out, int *codes, const bike_model *model,
+                                  const bike_state *states, const bike_input *inputs, size_t count);
+
+// bike_eigenvalues_of for many; to a few roundings of the largest eigenvalue, and where two meet to
+// the root of that, as any method. codes[i]: NOT_FINITE, NO_CONVERGENCE, or 0.
+BIKE_API int bike_batch_eigenvalues(bike_eigenvalues *out, int *codes, const bike_linear *linears,
+                                    size_t count);
 
 // How many at a time on this machine, and by which instructions: 8 "v4" (x86-64-v4: AVX-512),
 // 4 "v3" (AVX2), 2 "baseline". The environment variable BICYCLE_INSTRUCTIONS asks for a lower one
