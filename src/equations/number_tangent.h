@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel over tangents: a value and SLOPES exact derivatives of it (1 to 8, set before; 1 else),
-// each for LANES states at a time. The kernel comes lowered by tangent/lower.py, since C has no
-// operators on structs.
+// The kernel over tangents: a value and SLOPES exact derivatives of it (1 to 8, set before; 1
+// else), each for LANES states at a time. The kernel comes lowered by tangent/lower.py, since C has
+// no operators on structs.
 //
 // One value with many slopes costs far less than many passes with one: the values are found once,
 // and a slope that is a constant zero (the parameters', the geometry's with respect to the speeds)

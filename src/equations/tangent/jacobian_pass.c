@@ -14,9 +14,8 @@ LANE_INLINE void put(jacobian_row row, int first, lanes x) {
   memcpy(row + first, &x, sizeof x);
 }
 
-LANE_INLINE void put_slopes(jacobian_row rows[SLOPES], int first, real x) {
-  EACH_SLOPE(put(rows[j], first, x.slope[j]))
-}
+LANE_INLINE void put_slopes(jacobian_row rows[SLOPES], int first,
+                            real x){EACH_SLOPE(put(rows[j], first, x.slope[j]))}
 
 LANE_INLINE real argument(const jacobian_points *points, int first, int which) {
   lanes x;
@@ -45,7 +44,8 @@ LANE_INLINE void put_energy(jacobian *out, int first, energy e) {
   EACH_SLOPE(if (j < (int)JACOBIAN_VARIABLES) put(out->energy_slope[j], first, sum.slope[j]))
 }
 
-LANE_INLINE void pass_lanes(jacobian *out, int first, const kernel_model *m, const jacobian_points *p) {
+LANE_INLINE void pass_lanes(jacobian *out, int first, const kernel_model *m,
+                            const jacobian_points *p) {
   real phi = argument(p, first, AT_STEER), kappa = argument(p, first, AT_LEAN);
   form u = {argument(p, first, AT_STEER_RATE), argument(p, first, AT_LEAN_RATE),
             argument(p, first, AT_SPEED)};
