@@ -134,8 +134,8 @@ LANE_INLINE void solve_rear_angle(position *g, const kernel_geometry *L, start f
                    .c_kap = without_slopes(g->c_kap)};
   kernel_geometry lengths = {without_slopes(L->L_r), without_slopes(L->L_f), without_slopes(L->L_s),
                              without_slopes(L->R_r), without_slopes(L->R_f)};
-  from = (start){without_slopes(from.s), without_slopes(from.c)};
-  newton_rear_angle(NEWTON_STEPS, &root, &lengths, from);
+  start plain = {without_slopes(from.s), without_slopes(from.c)};
+  newton_rear_angle(NEWTON_STEPS, &root, &lengths, plain);
   newton_rear_angle(1, g, L, (start){root.s_br, root.c_br});
   g->s_br.value = root.s_br.value;
   g->c_br.value = root.c_br.value;

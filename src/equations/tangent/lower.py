@@ -43,10 +43,11 @@ HEAD = """\
 
 
 class Refused(Exception):
-    """A construct that the lowering does not know."""
+    pass
 
 
 def refuse(node, why):
+    """For a construct that the lowering does not know."""
     raise Refused(f"{node.coord}: {why}")
 
 
@@ -109,10 +110,9 @@ class Lowering:
     # Statements
 
     def statement(self, node):
-        handler = getattr(self, "on_" + type(node).__name__, None)
-        if handler is None:
-            refuse(node, f"a statement {type(node).__name__}")
-        handler(node)
+        kind = type(node).__name__
+        handler = self.value if kind == "FuncCall" else getattr(self, "on_" + kind, None)
+        return handler(node) if handler else refuse(node, f"a statement {kind}")
 
     def on_Compound(self, node):
         self.scopes.append({})
@@ -128,9 +128,6 @@ class Lowering:
 
     def on_Return(self, node):
         node.expr = self.expected(node.expr, self.result)
-
-    def on_FuncCall(self, node):
-        self.of_FuncCall(node)
 
     def on_For(self, node):
         self.scopes.append({})
@@ -263,11 +260,10 @@ def main(arguments):
     try:
         with open(source, encoding="utf-8") as file:
             text = lowered(file.read(), folder)
+        with open(output, "w", encoding="utf-8") as file:
+            file.write(text)
     except (OSError, Refused, c_parser.ParseError) as error:
         sys.exit(f"lower.py: {error}")
-    with open(output + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(output + ".part", output)
 
 
 if __name__ == "__main__":

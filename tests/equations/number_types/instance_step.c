@@ -21,7 +21,9 @@ void slope_by_step(slope_result *out, const bike_model *model, const double at[J
   solve_instant(&now, &m, from, x[AT_STEER], x[AT_LEAN], u, &in);
   energy e = energy_of(&now, &m, &in);
   form a = now.acceleration;
-  real all[SLOPE_RESULTS] = {a.phi, a.kap, a.v, e.kinetic + e.potential};
+  ground f = ground_forces(&now, &m, &in);
+  real all[SLOPE_RESULTS] = {a.phi,       a.kap,    a.v,      e.kinetic + e.potential,
+                             now.at.s_br, f.rear.x, f.rear.y, f.rear.z};
   for (int i = 0; i < SLOPE_RESULTS; i++) {
     out->value[i] = creal(all[i]);
     out->slope[i] = cimag(all[i]) / STEP;

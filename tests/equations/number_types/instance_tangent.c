@@ -24,7 +24,9 @@ void slopes_by_tangent(slope_result out[TANGENT_POINTS], const bike_model *model
   solve_instant(&now, &m, guessed(&m, x[AT_STEER], x[AT_LEAN]), x[AT_STEER], x[AT_LEAN], u, &in);
   energy e = energy_of(&now, &m, &in);
   form a = now.acceleration;
-  real all[SLOPE_RESULTS] = {a.phi, a.kap, a.v, tangent_add(e.kinetic, e.potential)};
+  ground f = ground_forces(&now, &m, &in);
+  real total = tangent_add(e.kinetic, e.potential);
+  real all[SLOPE_RESULTS] = {a.phi, a.kap, a.v, total, now.at.s_br, f.rear.x, f.rear.y, f.rear.z};
   for (int lane = 0; lane < LANES; lane++)
     for (int i = 0; i < SLOPE_RESULTS; i++) {
       out[lane].value[i] = all[i].value[lane];

@@ -5,8 +5,14 @@
 
 #include "equations/tangent/jacobian.h"
 
-// Of phi'', kappa'', v' and the energy.
-enum { SLOPE_RESULTS = 4 };
+// What is differentiated, after the accelerations in the order of OF_STEER ...
+enum {
+  OF_ENERGY = JACOBIAN_ACCELERATIONS,
+  OF_REAR_ANGLE, // sin beta_r
+  OF_REAR_FORCE, // three components
+  SLOPE_RESULTS = OF_REAR_FORCE + 3
+};
+
 typedef struct slope_result {
   double value[SLOPE_RESULTS], slope[SLOPE_RESULTS];
 } slope_result;
