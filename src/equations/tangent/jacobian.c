@@ -8,10 +8,8 @@
 
 static jacobian_pass *widest(void) {
 #ifdef JACOBIAN_X86
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
-    return jacobian_pass_v4;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return jacobian_pass_v3;
+  if (__builtin_cpu_supports("x86-64-v4")) return jacobian_pass_v4;
+  if (__builtin_cpu_supports("x86-64-v3")) return jacobian_pass_v3;
 #endif
   return jacobian_pass_plain;
 }

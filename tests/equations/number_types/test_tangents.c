@@ -146,9 +146,7 @@ static void plain_pass(void **unused) {
 static void wide_passes(void **unused) {
   (void)unused;
 #ifdef JACOBIAN_X86
-  bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+  bool v3 = __builtin_cpu_supports("x86-64-v3"), v4 = __builtin_cpu_supports("x86-64-v4");
   if (v3) check_pass(jacobian_pass_v3, "AVX2 pass");
   if (v4) check_pass(jacobian_pass_v4, "AVX-512 pass");
   if (v3) return;
