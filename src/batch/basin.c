@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "batch/parallel.h"
+
 const char *bike_fate_string(bike_fate fate) {
   static const char *const names[BIKE_FATES] = {"straight", "lifted", "riding", "fallen",
                                                 "no start"};
@@ -117,14 +119,12 @@ static int ride_all(grid *g, bike_fate *out, double *times, const bike_model *mo
   return code;
 }
 
-enum { MOST_THREADS = 256 };
-
 static int check(const bike_basin_def *def) {
   bool right = def->speed > 0 && isfinite(def->speed) && def->leans && def->steers &&
                def->lean_count > 0 && def->steer_count > 0 &&
                def->lean_count <= SIZE_MAX / sizeof(bike_member_result) / def->steer_count &&
                def->duration > 0 && isfinite(def->duration) && def->settled > 0 &&
-               def->threads >= 1 && def->threads <= MOST_THREADS;
+               def->threads >= 1 && def->threads <= PARALLEL_MOST_THREADS;
   return right ? BIKE_OK : BIKE_ERROR_ARGUMENT;
 }
 

@@ -4,14 +4,11 @@
 #include <bicycle/error.h>
 #include <float.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdatomic.h>
 
 #include "batch/lanes.h"
 #include "batch/member.h"
-#include "equations/rear_angle.h"
-
-enum { MOST_THREADS = 256 };
+#include "batch/parallel.h"
 
 const char *bike_outcome_string(bike_outcome outcome) {
   static const char *const names[BIKE_OUTCOMES] = {"complete", "settled",    "lean limit",
@@ -105,9 +102,9 @@ static void member_done(const lanes_ended *end, void *user) {
   count_done(w);
 }
 
-static void *run(void *user) {
-  worker *w = user;
-  const bike_ensemble_def *def = w->work->def;
+static void ride_share(size_t share, void *user) {
+  worker w = {.work = user, .tells = share == 0};
+  const bike_ensemble_def *def = w.work->def;
   lanes_ride_def ride = {.duration = def->duration,
                          .rtol = def->rtol,
                          .atol = def->atol,
@@ -118,9 +115,8 @@ static void *run(void *user) {
                          .watch_lift = def->watch_lift,
                          .next = next_member,
                          .done = member_done,
-                         .user = w};
+                         .user = &w};
   lanes_in_use()->ride(&ride);
-  return NULL;
 }
 
 static bool positive(double x) {
@@ -131,7 +127,7 @@ static int check(const bike_member *members, size_t count, const bike_ensemble_d
   bool right = positive(def->duration) && def->duration / MEMBER_LOOK <= 1e9 &&
                def->rtol >= 4 * DBL_EPSILON && isfinite(def->rtol) && positive(def->atol) &&
                def->lean_limit > 0 && def->lean_limit <= 1.5707963267948966 && def->settled >= 0 &&
-               isfinite(def->settled) && def->threads >= 1 && def->threads <= MOST_THREADS;
+               isfinite(def->settled) && def->threads >= 1 && def->threads <= PARALLEL_MOST_THREADS;
   for (size_t i = 0; i < count && right; i++) {
     const bike_member *m = &members[i];
     right = m->model && m->input.rider_velocity == 0 && m->input.rider_acceleration == 0;
@@ -145,13 +141,7 @@ int bike_ensemble_ride(bike_member_result *out, const bike_member *members, size
   int code = check(members, count, def);
   if (code) return code;
   work all = {.out = out, .members = members, .count = count, .def = def};
-  worker mine = {&all, true}, helper = {&all, false};
-  pthread_t threads[MOST_THREADS];
-  int started = 0;
-  // a thread that cannot be had leaves its share to the others
-  while (started < def->threads - 1 && !pthread_create(&threads[started], NULL, run, &helper))
-    started++;
-  run(&mine);
-  for (int i = 0; i < started; i++) pthread_join(threads[i], NULL);
+  // one share a thread, each of which takes members until none is left
+  parallel_run((size_t)def->threads, def->threads, ride_share, &all, NULL, NULL);
   return BIKE_OK;
 }

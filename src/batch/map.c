@@ -142,12 +142,11 @@ static void judge_chunk(size_t chunk, void *user) {
   map *m = user;
   size_t nx = m->def->speed_count, all = nx * m->def->lean_count, first = chunk * CHUNK;
   size_t used = all - first < CHUNK ? all - first : CHUNK;
-  bike_state states[CHUNK];
-  bike_input inputs[CHUNK];
+  bike_state states[CHUNK] = {0};
+  bike_input inputs[CHUNK] = {0};
   for (size_t k = 0; k < used; k++) {
     const bike_map_node *n = &m->nodes[first + k];
     states[k] = (bike_state){.speed = m->def->speeds[(first + k) % nx]};
-    inputs[k] = (bike_input){0};
     if (n->error) continue;
     states[k].lean = m->def->leans[(first + k) / nx];
     states[k].steer = n->steer;

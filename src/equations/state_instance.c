@@ -4,10 +4,10 @@
 #include "equations/state_instance.h"
 
 #include <bicycle/error.h>
-#include <float.h>
 
 #include "equations/number_double.h"
 #include "equations/rear_angle.h"
+#include "equations/regular.h"
 
 // All of the kernel is inlined into these: what they do not read of an instant is then never
 // stored, a sixth of the time.
@@ -24,21 +24,6 @@ static bool finite_input(const bike_input *in) {
 
 static bool sways(const bike_input *in) {
   return in->rider_offset != 0 || in->rider_velocity != 0 || in->rider_acceleration != 0;
-}
-
-// The pivots are those of a positive definite matrix; relative to the diagonal entry a pivot below
-// this is lost in the rounding of the entries (some tens of operations each).
-static const double SMALLEST_PIVOT = 64 * DBL_EPSILON;
-
-// Where the steering axis' point on the ground lies as far before the rear contact as behind the
-// front one, seen along the front wheel, the yaw rate (13) is not determined.
-static bool yaw_determined(const position *g, const bike_model *model) {
-  return fabs(g->D) > 64 * DBL_EPSILON * model->reach;
-}
-
-static bool regular(const kane *k) {
-  return k->pivot[0] > 0 && k->pivot[1] > SMALLEST_PIVOT * k->M[1] &&
-         k->pivot[2] > SMALLEST_PIVOT * k->M[0];
 }
 
 static form speeds_of(const bike_state *s) {

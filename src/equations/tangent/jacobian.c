@@ -6,13 +6,13 @@
 #include "equations/rear_angle.h"
 #include "equations/regular.h"
 
-static jacobian_pass *widest(void) {
-#ifdef JACOBIAN_X86
-  if (__builtin_cpu_supports("x86-64-v4")) return jacobian_pass_v4;
-  if (__builtin_cpu_supports("x86-64-v3")) return jacobian_pass_v3;
+static jacobian_pass *const passes[] = {
+    [INSTRUCTIONS_BASELINE] = jacobian_pass_baseline,
+#ifdef BICYCLE_X86_64_LEVELS
+    [INSTRUCTIONS_V3] = jacobian_pass_v3,
+    [INSTRUCTIONS_V4] = jacobian_pass_v4,
 #endif
-  return jacobian_pass_plain;
-}
+};
 
 // Every argument and every result.
 static bool finite_point(const jacobian *out, const jacobian_points *points, int i) {
@@ -44,6 +44,6 @@ static int judged(const jacobian *out, const bike_model *model, const jacobian_p
 
 void jacobian_at(jacobian *out, jacobian_codes codes, const bike_model *model,
                  const jacobian_points *points) {
-  widest()(out, model, points);
+  passes[instruction_set_in_use()](out, model, points);
   for (int i = 0; i < JACOBIAN_POINTS; i++) codes[i] = judged(out, model, points, i);
 }

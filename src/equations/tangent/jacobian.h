@@ -3,6 +3,8 @@
 #ifndef BICYCLE_EQUATIONS_JACOBIAN_H
 #define BICYCLE_EQUATIONS_JACOBIAN_H
 
+#include "equations/instruction_set.h"
+
 #include <bicycle/model.h>
 
 enum { JACOBIAN_POINTS = 8 };
@@ -51,13 +53,12 @@ typedef struct jacobian {
 // (4): bike_linearize may yet follow it there. A rider's motion without a rider is not looked for.
 typedef int jacobian_codes[JACOBIAN_POINTS];
 
-// All points are filled, so give every point a state. With the widest vectors that the machine has.
+// All points are filled, so give every point a state.
 void jacobian_at(jacobian *out, jacobian_codes codes, const bike_model *model,
                  const jacobian_points *points);
 
-// The passes behind it, compiled for x86-64-v4 (AVX-512), x86-64-v3 (AVX2) and the build's own
-// target; a machine must have what it calls.
+// The passes behind it; a machine must have the instructions of what it calls.
 typedef void jacobian_pass(jacobian *out, const bike_model *model, const jacobian_points *points);
-jacobian_pass jacobian_pass_v4, jacobian_pass_v3, jacobian_pass_plain;
+jacobian_pass jacobian_pass_baseline, jacobian_pass_v3, jacobian_pass_v4;
 
 #endif

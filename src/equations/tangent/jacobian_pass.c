@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pass over the points. Compiled once for each width of vectors: JACOBIAN_PASS is its name, and
-// LANES points are treated at a time. Under -ffinite-math-only: what is not finite is judged in
-// jacobian.c.
+// One pass over the points, LANES at a time. Under -ffinite-math-only: what is not finite is judged
+// in jacobian.c.
 #include <string.h>
 
 #define SLOPES 8
@@ -65,7 +64,8 @@ LANE_INLINE void pass_lanes(jacobian *out, int first, const kernel_model *m,
   put_checks(&out->checks, first, &now);
 }
 
-void JACOBIAN_PASS(jacobian *out, const bike_model *model, const jacobian_points *points) {
+void INSTANCE(jacobian_pass)(jacobian *out, const bike_model *model,
+                             const jacobian_points *points) {
   for (int first = 0; first < JACOBIAN_POINTS; first += LANES) {
     kernel_model m; // here, so that its slopes are seen to be zero
     kernel_model_of(&m, model);
