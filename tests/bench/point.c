@@ -28,12 +28,12 @@ bool bench_row_begin(bench_row *row, const bike_model *model) {
   return false;
 }
 
-void bench_exact_points(void *context, int repeats) {
+void bench_exact_points(void *context, long repeats) {
   bench_row *row = context;
   bike_turn turn = row->first, next;
-  for (int i = 0; i < repeats; i++) {
+  for (long i = 0; i < repeats; i++) {
     if (i % ROW == 0) turn = row->first;
-    bike_turn_def def = question(row, row->start + row->step * (1 + i % ROW));
+    bike_turn_def def = question(row, row->start + row->step * (double)(1 + i % ROW));
     if (bike_turn_near(&next, row->model, &def, &turn)) return;
     turn = next;
     row->sink = turn.eps_max;
@@ -108,15 +108,15 @@ static int difference_eigenvalues(bike_eigenvalues *out, const bench_row *row, d
   return bike_eigenvalues_of(out, A);
 }
 
-void bench_difference_points(void *context, int repeats) {
+void bench_difference_points(void *context, long repeats) {
   bench_row *row = context;
   double x[2] = {row->first.steer, row->first.rider_offset};
-  for (int i = 0; i < repeats; i++) {
+  for (long i = 0; i < repeats; i++) {
     if (i % ROW == 0) {
       x[0] = row->first.steer;
       x[1] = row->first.rider_offset;
     }
-    double lean = row->start + row->step * (1 + i % ROW);
+    double lean = row->start + row->step * (double)(1 + i % ROW);
     bike_eigenvalues e;
     if (equilibrium(x, row, lean) || difference_eigenvalues(&e, row, lean, x)) return;
     row->sink = e.re[0];

@@ -19,7 +19,7 @@ typedef struct bench_row {
 bool bench_row_begin(bench_row *row, const bike_model *model);
 
 // `repeats` points, the library's way, and by finite differences with a general eigenvalue solver.
-void bench_exact_points(void *row, int repeats);
-void bench_difference_points(void *row, int repeats);
+void bench_exact_points(void *row, long repeats);
+void bench_difference_points(void *row, long repeats);
 
 #endif
