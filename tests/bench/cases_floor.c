@@ -38,14 +38,14 @@ bool bench_floor_cases(bench_list *list) {
        .ours = ours,
        .theirs = {"FMA, 12 chains", operations, .context = c},
        .sense = BENCH_AT_MOST,
-       .asked = 2,
-       .possible = 1.8,
        .prepare = prepare_floor},
       {.name = "floor-instructions",
        .question = "right-hand side / its fused instructions as multiply-adds",
        .ours = ours,
        .theirs = {"FMA, 12 chains", instructions, .context = c},
        .sense = BENCH_AT_MOST,
+       .asked = 2,
+       .possible = 1.8,
        .prepare = prepare_floor}};
   bench_add_all(list, contests, sizeof contests / sizeof contests[0], c);
   return true;

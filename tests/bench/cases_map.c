@@ -44,8 +44,8 @@ static void own_eigenvalues(void *context, long repeats) {
 
 static double numpy_eigenvalues(void *context, long repeats) {
   map_cases *c = context;
-  return python_seconds(c->python, json_pack("{s:s, s:I}", "do", "eigenvalues", "repeats",
-                                             (json_int_t)repeats));
+  return python_seconds(
+      c->python, json_pack("{s:s, s:I}", "do", "eigenvalues", "repeats", (json_int_t)repeats));
 }
 
 // Upright riding from 1 to 10 m/s: real eigenvalues and pairs, stable and not.
@@ -72,7 +72,8 @@ static double disagreement(const map_cases *c, const json_t *answer) {
     if (bike_eigenvalues_of(&e, c->A[k])) return INFINITY;
     double scale = 0, off = 0;
     for (int i = 0; i < 4; i++) {
-      double error = hypot(e.re[i] - at(answer, "re", 4 * k + i), e.im[i] - at(answer, "im", 4 * k + i));
+      double error =
+          hypot(e.re[i] - at(answer, "re", 4 * k + i), e.im[i] - at(answer, "im", 4 * k + i));
       if (isnan(error)) return INFINITY;
       off = fmax(off, error);
       scale = fmax(scale, hypot(e.re[i], e.im[i]));
@@ -90,7 +91,8 @@ static bool prepare_eigenvalues(void *context, bench_notes *notes) {
   map_cases *c = context;
   if (!fill_matrices(c)) return bench_note_reason(notes, "the bicycle has no linearisation");
   json_t *rows = term_json_matrix(c->A[0], MATRICES, 16);
-  json_t *answer = python_ask(c->python, json_pack("{s:s, s:o}", "do", "matrices", "rows", rows), notes);
+  json_t *answer =
+      python_ask(c->python, json_pack("{s:s, s:o}", "do", "matrices", "rows", rows), notes);
   if (!answer) return false;
   bench_note_check(notes, "disagreement", disagreement(c, answer), EIGENVALUES_AGREE);
   json_decref(answer);

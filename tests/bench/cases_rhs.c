@@ -79,35 +79,36 @@ bool bench_rhs_cases(bench_list *list) {
   rhs_cases *c = bench_new(list, sizeof *c, end);
   bench_subject *s = c->subject = list->subject;
   c->symmetric = sympy_bicycle_init(&c->sympy, &s->bicycle, &s->model);
-  const bench_runner accelerations = {"equations, native", bench_native_accelerations, .context = s};
-  const bench_runner native = {"bike_rates_of, native", bench_native_right_hand_sides, .context = s};
+  const bench_runner accelerations = {"equations, native", bench_native_accelerations,
+                                      .context = s};
+  const bench_runner native = {"bike_rates_of, native", bench_native_right_hand_sides,
+                               .context = s};
   const bench_runner ours = {"bike_rates_of", bench_right_hand_sides, .context = s};
   const bench_runner forward = {"mj_forward", bench_mujoco_forward, .context = &c->twin};
-  const bench_contest contests[] = {
-      {.name = "rhs-sympy",
-       .question = "right-hand side, same flags: sympy's C / ours",
-       .ours = accelerations,
-       .theirs = {"KanesMethod, 6 x 6", full, .context = c},
-       .asked = 3,
-       .possible = 3.4,
-       .prepare = prepare_full},
-      {.name = "rhs-sympy-reduced",
-       .question = "the same, sympy's system reduced to 3 x 3",
-       .ours = accelerations,
-       .theirs = {"KanesMethod, 3 x 3", reduced, .context = c},
-       .prepare = prepare_reduced},
-      {.name = "rhs-mujoco",
-       .question = "mj_forward / right-hand side as installed",
-       .ours = ours,
-       .theirs = forward,
-       .asked = 8,
-       .possible = 10,
-       .prepare = prepare_mujoco},
-      {.name = "rhs-mujoco-native",
-       .question = "the same, ours with -march=native",
-       .ours = native,
-       .theirs = forward,
-       .prepare = prepare_mujoco}};
+  const bench_contest contests[] = {{.name = "rhs-sympy",
+                                     .question = "right-hand side, same flags: sympy's C / ours",
+                                     .ours = accelerations,
+                                     .theirs = {"KanesMethod, 6 x 6", full, .context = c},
+                                     .asked = 3,
+                                     .possible = 3.4,
+                                     .prepare = prepare_full},
+                                    {.name = "rhs-sympy-reduced",
+                                     .question = "the same, sympy's system reduced to 3 x 3",
+                                     .ours = accelerations,
+                                     .theirs = {"KanesMethod, 3 x 3", reduced, .context = c},
+                                     .prepare = prepare_reduced},
+                                    {.name = "rhs-mujoco",
+                                     .question = "mj_forward / right-hand side as installed",
+                                     .ours = ours,
+                                     .theirs = forward,
+                                     .asked = 8,
+                                     .possible = 10,
+                                     .prepare = prepare_mujoco},
+                                    {.name = "rhs-mujoco-native",
+                                     .question = "the same, ours with -march=native",
+                                     .ours = native,
+                                     .theirs = forward,
+                                     .prepare = prepare_mujoco}};
   bench_add_all(list, contests, sizeof contests / sizeof contests[0], c);
   return true;
 }

@@ -23,7 +23,6 @@ typedef struct ride_cases {
   long steps;      //
   python_peer *python;
   bool loaded;
-  scipy_ride lsoda, odeint, dop853, solve_ivp;
 } ride_cases;
 
 //---------------------------------- ours ----------------------------------------------------------
@@ -42,7 +41,8 @@ static bool settle(ride_cases *c, bench_notes *notes) {
   if (c->ready) return true;
   bench_ride tightest = {c->subject, TIGHTEST};
   bike_ride_result result;
-  if (!bench_ride_go(&result, &tightest)) return bench_note_reason(notes, "the ride is not possible");
+  if (!bench_ride_go(&result, &tightest))
+    return bench_note_reason(notes, "the ride is not possible");
   bench_ride_states(c->end, &result.end);
   c->standard = (bench_ride){c->subject, bike_default_ride_def().rtol};
   double tolerance = bench_ride_tolerance(c->subject, c->end, END_ERROR);
@@ -68,38 +68,55 @@ static bool prepare_own(void *context, bench_notes *notes) {
 
 //---------------------------------- scipy's -------------------------------------------------------
 
-static bool prepare_scipy(ride_cases *c, scipy_ride *ride, const bench_ride *ours,
-                          bench_notes *notes) {
+// One way to ride with scipy.
+typedef struct scipy_case {
+  ride_cases *common;
+  scipy_ride ride;
+  const bench_ride *ours;
+} scipy_case;
+
+static bool prepare_scipy(void *context, bench_notes *notes) {
+  scipy_case *s = context;
+  ride_cases *c = s->common;
   if (!settle(c, notes)) return false;
   if (!c->loaded) c->loaded = scipy_load(c->python, c->subject, c->end, notes);
-  if (!c->loaded || !scipy_tune(ride, END_ERROR, notes)) return false;
-  note_own(notes, c, ours);
+  if (!c->loaded || !scipy_tune(&s->ride, END_ERROR, notes)) return false;
+  note_own(notes, c, s->ours);
   return true;
 }
 
-static bool prepare_lsoda(void *context, bench_notes *notes) {
-  ride_cases *c = context;
-  return prepare_scipy(c, &c->lsoda, &c->equal, notes);
-}
-
-static bool prepare_standard(void *context, bench_notes *notes) {
-  ride_cases *c = context;
-  return prepare_scipy(c, &c->lsoda, &c->standard, notes);
-}
-
-static bool prepare_odeint(void *context, bench_notes *notes) {
-  ride_cases *c = context;
-  return prepare_scipy(c, &c->odeint, &c->equal, notes);
-}
-
-static bool prepare_dop853(void *context, bench_notes *notes) {
-  ride_cases *c = context;
-  return prepare_scipy(c, &c->dop853, &c->equal, notes);
-}
-
-static bool prepare_solve_ivp(void *context, bench_notes *notes) {
-  ride_cases *c = context;
-  return prepare_scipy(c, &c->solve_ivp, &c->equal, notes);
+static void add_scipy_cases(bench_list *list, ride_cases *c) {
+  static const struct {
+    const char *name, *question, *method, *says;
+    bool standard; // ours as it is by default
+    double asked, possible;
+  } CASES[] = {{"ride-lsoda", "10 s ride, equal error: LSODA over sympy's C / ours", "lsoda",
+                "LSODA, C callback", false, 5, 10},
+               {"ride-odeint", "the same, odeint with a Python function around sympy's C", "odeint",
+                "LSODA, odeint", false, 0, 0},
+               {"ride-solve-ivp", "the same, solve_ivp with a Python function around sympy's C",
+                "solve_ivp LSODA", "LSODA, solve_ivp", false, 5, 10},
+               {"ride-lsoda-default", "LSODA at that error / our default ride at its own", "lsoda",
+                "LSODA, C callback", true, 0, 0},
+               {"ride-dop853", "10 s ride, equal error: DOP853 over sympy's C / ours", "dop853",
+                "DOP853, C callback", false, 0, 0},
+               {"ride-dop853-python", "the same, solve_ivp with a Python function around sympy's C",
+                "solve_ivp DOP853", "DOP853, solve_ivp", false, 0, 0}};
+  for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+    scipy_case *s = bench_new(list, sizeof *s, NULL);
+    bench_ride *ours = CASES[i].standard ? &c->standard : &c->equal;
+    *s = (scipy_case){c, {.peer = list->python, .method = CASES[i].method}, ours};
+    const char *name = CASES[i].standard ? "bike_ride, default" : "SUNDIALS, tuned";
+    bench_add(list,
+              &(bench_contest){.name = CASES[i].name,
+                               .question = CASES[i].question,
+                               .ours = {name, bench_rides, .context = ours},
+                               .theirs = {CASES[i].says, .timed = scipy_rides, .context = &s->ride},
+                               .asked = CASES[i].asked,
+                               .possible = CASES[i].possible,
+                               .prepare = prepare_scipy,
+                               .context = s});
+  }
 }
 
 //---------------------------------- MuJoCo's ------------------------------------------------------
@@ -162,50 +179,18 @@ bool bench_ride_cases(bench_list *list) {
   ride_cases *c = bench_new(list, sizeof *c, end);
   c->subject = list->subject;
   c->python = list->python;
-  c->lsoda = (scipy_ride){.peer = c->python, .method = "lsoda"};
-  c->odeint = (scipy_ride){.peer = c->python, .method = "odeint"};
-  c->dop853 = (scipy_ride){.peer = c->python, .method = "dop853"};
-  c->solve_ivp = (scipy_ride){.peer = c->python, .method = "solve_ivp"};
-  const bench_runner equal = {"SUNDIALS, tuned", bench_rides, .context = &c->equal};
-  const bench_runner standard = {"bike_ride, default", bench_rides, .context = &c->standard};
+  add_scipy_cases(list, c);
   const bench_contest contests[] = {
-      {.name = "ride-lsoda",
-       .question = "10 s ride, equal error: LSODA over sympy's C / ours",
-       .ours = equal,
-       .theirs = {"LSODA, C callback", .timed = scipy_rides, .context = &c->lsoda},
-       .asked = 5,
-       .possible = 10,
-       .prepare = prepare_lsoda},
-      {.name = "ride-odeint",
-       .question = "the same, odeint with a Python function around sympy's C",
-       .ours = equal,
-       .theirs = {"LSODA, odeint", .timed = scipy_rides, .context = &c->odeint},
-       .prepare = prepare_odeint},
-      {.name = "ride-dop853",
-       .question = "10 s ride, equal error: DOP853 over sympy's C / ours",
-       .ours = equal,
-       .theirs = {"DOP853, C callback", .timed = scipy_rides, .context = &c->dop853},
-       .prepare = prepare_dop853},
-      {.name = "ride-solve-ivp",
-       .question = "the same, solve_ivp with a Python function around sympy's C",
-       .ours = equal,
-       .theirs = {"DOP853, solve_ivp", .timed = scipy_rides, .context = &c->solve_ivp},
-       .prepare = prepare_solve_ivp},
-      {.name = "ride-lsoda-default",
-       .question = "LSODA at that error / our default ride at its own",
-       .ours = standard,
-       .theirs = {"LSODA, C callback", .timed = scipy_rides, .context = &c->lsoda},
-       .prepare = prepare_standard},
       {.name = "ride-mujoco",
        .question = "10 s ride, equal error: MuJoCo RK4 with rolling / ours",
-       .ours = equal,
+       .ours = {"SUNDIALS, tuned", bench_rides, .context = &c->equal},
        .theirs = {"mj_step, callback", mujoco_rides, .context = c},
        .asked = 20,
        .possible = 40,
        .prepare = prepare_mujoco},
       {.name = "ride-overhead",
        .question = "SUNDIALS default ride / its right-hand sides",
-       .ours = standard,
+       .ours = {"bike_ride, default", bench_rides, .context = &c->standard},
        .theirs = {"bike_rates_of", own_evaluations, .context = c},
        .sense = BENCH_AT_MOST,
        .asked = 3.5,

@@ -71,7 +71,8 @@ static bool compete(bench_result *r, const bench_contest *c, const bench_effort 
     ours[n] = timed(&c->ours, our_repeats);
     theirs[n] = timed(&c->theirs, their_repeats);
     ratio[n] = ratio_of(c, ours[n], theirs[n]);
-    if (!isfinite(ratio[n])) return bench_note_reason(&r->notes, "a side failed while it was timed");
+    if (!isfinite(ratio[n]))
+      return bench_note_reason(&r->notes, "a side failed while it was timed");
     n++;
   }
   r->rounds = n;

@@ -57,8 +57,8 @@ typedef struct bench_result {
 
 // How long to take for a contest.
 typedef struct bench_effort {
-  double round;                  // s  a piece of work is repeated until it takes this long
-  double total;                  // s  rounds go on for this long, within the limits below
+  double round;                   // s  a piece of work is repeated until it takes this long
+  double total;                   // s  rounds go on for this long, within the limits below
   int fewest_rounds, most_rounds; //
 } bench_effort;
 

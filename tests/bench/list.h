@@ -51,7 +51,7 @@ bench_group bench_map_cases;    // cases_map.c: points of maps, eigenvalues
 bench_group bench_mujoco_cases; // cases_mujoco.c: what rolling costs MuJoCo
 
 #define BENCH_GROUPS                                                                               \
-  {bench_rhs_cases, bench_floor_cases, bench_ride_cases, bench_map_cases, bench_mujoco_cases}
+  { bench_rhs_cases, bench_floor_cases, bench_ride_cases, bench_map_cases, bench_mujoco_cases }
 
 // A list of all groups. False with one line on stderr; close it in any case.
 bool bench_list_open(bench_list *out, bench_subject *subject);

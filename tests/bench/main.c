@@ -74,8 +74,8 @@ static term_exit report(const bench_list *list, const options *o) {
   static bench_line lines[BENCH_MAX_CONTESTS];
   size_t count = compete(lines, list, o);
   if (count == 0) return term_fail(TERM_USAGE, "--only %s: no such contest (see --list)", o->only);
-  bool written = o->json ? bench_print_json(lines, count, list->subject)
-                         : bench_print_table(lines, count);
+  bool written =
+      o->json ? bench_print_json(lines, count, list->subject) : bench_print_table(lines, count);
   if (!written) return term_fail(TERM_INVALID, "out of memory");
   for (size_t i = 0; i < count; i++)
     if (lines[i].result.status == BENCH_REFUSED) return TERM_FAILED;
@@ -93,7 +93,7 @@ int main(int argc, char **argv) {
                                    NULL,
                                    NULL,
                                    NULL};
-  options o = {.bicycle = "roadster"};
+  options o = {0};
   term_begin("bicycle-bench");
   term_parse(&ARGP, EXAMPLE, argc, argv, &o);
   // a roll at a speed at which the roadster is stable, and a state where nothing vanishes
@@ -101,7 +101,8 @@ int main(int argc, char **argv) {
       .state = {.lean = 0.1, .steer = 0.05, .lean_rate = 0.1, .speed = 5},
       .ride_start = {.lean_rate = 0.2, .speed = 6},
       .ride_time = 10};
-  term_exit code = term_load_bicycle(&subject.bicycle, &subject.model, o.bicycle);
+  term_exit code =
+      term_load_bicycle(&subject.bicycle, &subject.model, o.bicycle ? o.bicycle : "roadster");
   if (code) return code;
   subject.quick = o.quick;
   static bench_list list;

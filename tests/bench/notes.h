@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What there is to say of a contest beside its times: counts, tolerances, how well both sides agree.
+// What there is to say of a contest beside its times: counts, tolerances, how well both sides
+// agree.
 #ifndef BICYCLE_BENCH_NOTES_H
 #define BICYCLE_BENCH_NOTES_H
 

@@ -55,14 +55,17 @@ static void add_row(term_table *table, const bench_line *line) {
     snprintf(spread, sizeof spread, "%.2f .. %.2f%s", r->low, r->high,
              bench_noisy(r) ? " noisy" : "");
   }
-  const char *verdict = !measured ? status_text(r->status) : c->asked == 0 ? "-" : met ? "yes" : "NO";
+  const char *verdict = !measured       ? status_text(r->status)
+                        : c->asked == 0 ? "-"
+                        : met           ? "yes"
+                                        : "NO";
   const char *cells[] = {c->name, c->question, ours, theirs, ratio, spread, asked, verdict};
   term_table_add(table, met || !measured ? TERM_PLAIN : TERM_BAD, cells);
 }
 
 bool bench_print_table(const bench_line *lines, size_t count) {
   static const term_column COLUMNS[] = {
-      {"name", TERM_LEFT},   {"contest", TERM_LEFT},    {"ours", TERM_RIGHT}, {"peer", TERM_RIGHT},
+      {"name", TERM_LEFT},   {"contest", TERM_LEFT},   {"ours", TERM_RIGHT}, {"peer", TERM_RIGHT},
       {"ratio", TERM_RIGHT}, {"quartiles", TERM_LEFT}, {"asked", TERM_LEFT}, {"met?", TERM_LEFT}};
   term_table *table = term_table_create(COLUMNS, sizeof COLUMNS / sizeof COLUMNS[0]);
   for (size_t i = 0; i < count; i++) add_row(table, &lines[i]);
@@ -83,7 +86,8 @@ static json_t *notes_json(const bench_notes *notes, bool checks) {
     const bench_note *n = &notes->list[i];
     if (isnan(n->limit) == checks) continue;
     json_t *value = term_json_number(n->value);
-    if (checks) value = json_pack("{s:o, s:o}", "value", value, "limit", term_json_number(n->limit));
+    if (checks)
+      value = json_pack("{s:o, s:o}", "value", value, "limit", term_json_number(n->limit));
     json_object_set_new(object, n->name, value);
   }
   return object;
@@ -121,6 +125,7 @@ bool bench_print_json(const bench_line *lines, size_t count, const bench_subject
   json_t *list = json_array();
   for (size_t i = 0; i < count; i++) json_array_append_new(list, line_json(&lines[i]));
   return term_json_write(json_pack("{s:o, s:s, s:b, s:o}", "machine", bench_machine(), "bicycle",
-                                   subject->bicycle.name, "quick", subject->quick, "contests", list),
+                                   subject->bicycle.name, "quick", subject->quick, "contests",
+                                   list),
                          stdout);
 }

@@ -5,8 +5,8 @@
 // Two counts are taken from the kernel's machine code (count.sh):
 //   operations    compiled without fused multiply-adds: every +, -, *, / and square root is one
 //   instructions  compiled with them: an instruction that multiplies and adds is one
-// The second floor is what no scalar code of these formulas gets under; the first, the larger, is
-// what the bench's figure is stated in. Quotients and square roots count like products though they
+// The floor that is asked about is the second, the lower one: no scalar code of these formulas gets
+// under it. Quotients and square roots count like products though they
 // cost more, and nothing is added for loads, stores and moves.
 #ifndef BICYCLE_BENCH_FLOOR_H
 #define BICYCLE_BENCH_FLOOR_H

@@ -10,8 +10,8 @@ static const double SYMPY_AGREES = 1e-12;
 enum { STATES = 1000, NEEDED = STATES / 2 };
 
 double acceleration_difference(const bike_acceleration *actual, const bike_acceleration *expected) {
-  double scale = fmax(1, fmax(fabs(expected->lean),
-                              fmax(fabs(expected->steer), fabs(expected->speed))));
+  double scale =
+      fmax(1, fmax(fabs(expected->lean), fmax(fabs(expected->steer), fabs(expected->speed))));
   double lean = fabs(actual->lean - expected->lean), steer = fabs(actual->steer - expected->steer);
   double speed = fabs(actual->speed - expected->speed);
   double worst = fmax(lean, fmax(steer, speed)) / scale;

@@ -39,8 +39,8 @@ static double number(const json_t *answer, const char *key) {
 // The share of a ride's time that is spent in sympy's C; the rest is the integrator's and Python's.
 static double share_in_c(const scipy_ride *ride, double evaluations) {
   enum { RIDES = 5, EVALUATIONS = 5000 };
-  double one = python_seconds(ride->peer, json_pack("{s:s, s:i}", "do", "evaluate", "repeats",
-                                                    EVALUATIONS)) /
+  double one = python_seconds(ride->peer,
+                              json_pack("{s:s, s:i}", "do", "evaluate", "repeats", EVALUATIONS)) /
                EVALUATIONS;
   return evaluations * one * RIDES / scipy_rides((void *)ride, RIDES);
 }

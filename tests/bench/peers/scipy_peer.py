@@ -8,8 +8,8 @@ that neither pipes nor JSON count.
 A ride by scipy is done in two ways:
   "lsoda", "dop853"                 scipy.integrate.ode with sympy's C handed over as a C function
                                     (a capsule): the Fortran integrator calls it directly
-  "odeint", "solve_ivp"             what most people write, LSODA by odeint and DOP853 by solve_ivp,
-                                    with a Python function that calls sympy's C through ctypes
+  "odeint"                          what most people write: a Python function that calls sympy's C
+  "solve_ivp LSODA", "... DOP853"   through ctypes
 """
 import ctypes
 import json
@@ -70,8 +70,9 @@ class Ride:
         if method == "odeint":
             return scipy.integrate.odeint(self.rates, self.start, [0, self.duration], tfirst=True,
                                           rtol=tolerance, atol=tolerance, mxstep=10**7)[-1]
+        _, name = method.split()
         return scipy.integrate.solve_ivp(self.rates_copied, (0, self.duration), self.start,
-                                         method="DOP853", rtol=tolerance, atol=tolerance).y[:, -1]
+                                         method=name, rtol=tolerance, atol=tolerance).y[:, -1]
 
     def error(self, method, tolerance):
         difference = np.abs(self.ride(method, tolerance) - self.end)

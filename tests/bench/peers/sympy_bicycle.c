@@ -87,13 +87,12 @@ bool sympy_accelerate(bike_acceleration *out, const sympy_bicycle *p, const bike
   return true;
 }
 
-bool sympy_accelerate_reduced(bike_acceleration *out, const sympy_bicycle *p,
-                              const bike_state *s) {
+bool sympy_accelerate_reduced(bike_acceleration *out, const sympy_bicycle *p, const bike_state *s) {
   angles a;
   double M[6], f[3];
   if (!find_angles(&a, p, s)) return false;
-  sympy_reduced(M, f, p, a.s_lean, a.c_lean, a.s_steer, a.c_steer, a.s_tilt, a.c_tilt,
-                s->lean_rate, s->steer_rate, s->speed);
+  sympy_reduced(M, f, p, a.s_lean, a.c_lean, a.s_steer, a.c_steer, a.s_tilt, a.c_tilt, s->lean_rate,
+                s->steer_rate, s->speed);
   solve_reduced(out, M, f);
   return true;
 }

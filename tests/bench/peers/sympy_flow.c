@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // sympy's bicycle as a differential equation y' = f(t, y), y = (lean, steer, lean rate, steer rate,
-// speed), in a shared library of its own: scipy's Fortran integrators call it without Python between.
-// Such a callback has no room for a context; the process that loads this rides one bicycle.
+// speed), in a shared library of its own: scipy's Fortran integrators call it without Python
+// between. Such a callback has no room for a context; the process that loads this rides one
+// bicycle.
 #include "sympy_flow.h"
 
 #include <math.h>

@@ -47,15 +47,34 @@ bool sympy_bicycle_init(sympy_bicycle *out, const bike_bicycle *bicycle, const b
   upright_axes axes = upright_axes_of(g, &upright);
   lump r = lump_of(bicycle, &axes, BIKE_REAR_FRAME), w = lump_of(bicycle, &axes, BIKE_REAR_WHEEL);
   lump f = lump_of(bicycle, &axes, BIKE_FRONT_FRAME), v = lump_of(bicycle, &axes, BIKE_FRONT_WHEEL);
-  *out = (sympy_bicycle){
-      .R_r = g->R_r, .R_f = g->R_f, .L_r = g->L_r, .L_f = g->L_f, .L_s = g->L_s,
-      .gravity = bicycle->gravity, .damping = bicycle->steer_damping,
-      .m_r = r.mass, .x_r = r.x, .z_r = r.z,
-      .r_xx = r.xx, .r_yy = r.yy, .r_zz = r.zz, .r_xz = r.xz,
-      .m_w = w.mass, .w_xx = w.xx, .w_yy = w.yy,
-      .m_f = f.mass, .x_f = f.x, .z_f = f.z,
-      .f_xx = f.xx, .f_yy = f.yy, .f_zz = f.zz, .f_xz = f.xz,
-      .m_v = v.mass, .v_xx = v.xx, .v_yy = v.yy,
-      .tilt = model->tilt, .tilt_gain = model->tilt_gain};
+  *out = (sympy_bicycle){.R_r = g->R_r,
+                         .R_f = g->R_f,
+                         .L_r = g->L_r,
+                         .L_f = g->L_f,
+                         .L_s = g->L_s,
+                         .gravity = bicycle->gravity,
+                         .damping = bicycle->steer_damping,
+                         .m_r = r.mass,
+                         .x_r = r.x,
+                         .z_r = r.z,
+                         .r_xx = r.xx,
+                         .r_yy = r.yy,
+                         .r_zz = r.zz,
+                         .r_xz = r.xz,
+                         .m_w = w.mass,
+                         .w_xx = w.xx,
+                         .w_yy = w.yy,
+                         .m_f = f.mass,
+                         .x_f = f.x,
+                         .z_f = f.z,
+                         .f_xx = f.xx,
+                         .f_yy = f.yy,
+                         .f_zz = f.zz,
+                         .f_xz = f.xz,
+                         .m_v = v.mass,
+                         .v_xx = v.xx,
+                         .v_yy = v.yy,
+                         .tilt = model->tilt,
+                         .tilt_gain = model->tilt_gain};
   return r.symmetric && f.symmetric;
 }
