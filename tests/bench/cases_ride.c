@@ -90,18 +90,19 @@ static void add_scipy_cases(bench_list *list, ride_cases *c) {
     const char *name, *question, *method, *says;
     bool standard; // ours as it is by default
     double asked, possible;
-  } CASES[] = {{"ride-lsoda", "10 s ride, equal error: LSODA over sympy's C / ours", "lsoda",
+  } CASES[] = {{"ride-lsoda", "ride, equal error: LSODA over sympy's C / ours", "lsoda",
                 "LSODA, C callback", false, 5, 10},
-               {"ride-odeint", "the same, odeint with a Python function around sympy's C", "odeint",
+               {"ride-odeint", "ride, equal error: odeint, Python, sympy's C / ours", "odeint",
                 "LSODA, odeint", false, 0, 0},
-               {"ride-solve-ivp", "the same, solve_ivp with a Python function around sympy's C",
+               {"ride-solve-ivp", "ride, equal error: solve_ivp LSODA, Python, sympy's C / ours",
                 "solve_ivp LSODA", "LSODA, solve_ivp", false, 5, 10},
-               {"ride-lsoda-default", "LSODA at that error / our default ride at its own", "lsoda",
-                "LSODA, C callback", true, 0, 0},
-               {"ride-dop853", "10 s ride, equal error: DOP853 over sympy's C / ours", "dop853",
+               {"ride-lsoda-default", "ride: LSODA at 1e-10 / our default at its own error",
+                "lsoda", "LSODA, C callback", true, 0, 0},
+               {"ride-dop853", "ride, equal error: DOP853 over sympy's C / ours", "dop853",
                 "DOP853, C callback", false, 0, 0},
-               {"ride-dop853-python", "the same, solve_ivp with a Python function around sympy's C",
-                "solve_ivp DOP853", "DOP853, solve_ivp", false, 0, 0}};
+               {"ride-dop853-python",
+                "ride, equal error: solve_ivp DOP853, Python, sympy's C / ours", "solve_ivp DOP853",
+                "DOP853, solve_ivp", false, 0, 0}};
   for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
     scipy_case *s = bench_new(list, sizeof *s, NULL);
     bench_ride *ours = CASES[i].standard ? &c->standard : &c->equal;
@@ -182,7 +183,7 @@ bool bench_ride_cases(bench_list *list) {
   add_scipy_cases(list, c);
   const bench_contest contests[] = {
       {.name = "ride-mujoco",
-       .question = "10 s ride, equal error: MuJoCo RK4 with rolling / ours",
+       .question = "ride, equal error: MuJoCo RK4 with rolling / ours",
        .ours = {"SUNDIALS, tuned", bench_rides, .context = &c->equal},
        .theirs = {"mj_step, callback", mujoco_rides, .context = c},
        .asked = 20,

@@ -13,18 +13,19 @@ bench_effort bench_quick_effort(void) {
   return (bench_effort){.round = 1e-4, .total = 0.02, .fewest_rounds = 3, .most_rounds = 11};
 }
 
-static double now(void) {
+static double now(clockid_t clock) {
   struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(clock, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 // Seconds for all repeats.
 static double spent(const bench_runner *runner, long repeats) {
   if (runner->timed) return runner->timed(runner->context, repeats);
-  double begin = now();
+  clockid_t clock = runner->threads ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
+  double begin = now(clock);
   runner->work(runner->context, repeats);
-  return now() - begin;
+  return now(clock) - begin;
 }
 
 // Seconds for one unit.
@@ -65,9 +66,10 @@ static bool compete(bench_result *r, const bench_contest *c, const bench_effort 
   static double ours[BENCH_MOST_ROUNDS], theirs[BENCH_MOST_ROUNDS], ratio[BENCH_MOST_ROUNDS];
   long our_repeats = repeats_for(&c->ours, effort->round);
   long their_repeats = repeats_for(&c->theirs, effort->round);
-  double begin = now();
+  double begin = now(CLOCK_MONOTONIC);
   int n = 0;
-  while (n < effort->fewest_rounds || (n < effort->most_rounds && now() - begin < effort->total)) {
+  while (n < effort->fewest_rounds ||
+         (n < effort->most_rounds && now(CLOCK_MONOTONIC) - begin < effort->total)) {
     ours[n] = timed(&c->ours, our_repeats);
     theirs[n] = timed(&c->theirs, their_repeats);
     ratio[n] = ratio_of(c, ours[n], theirs[n]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Timing by contest: two pieces of work in turn, many rounds, the ratio of their medians. What
-// else the machine does hits both alike.
+// else the machine does hits both alike. What counts is the processor's time of the thread that
+// works, so that waiting for a core does not; work in several threads is timed by the clock.
 #ifndef BICYCLE_BENCH_CONTEST_H
 #define BICYCLE_BENCH_CONTEST_H
 
@@ -17,6 +18,7 @@ typedef struct bench_runner {
   bench_work *work;        // one of these two
   bench_timed_work *timed; //
   void *context;
+  bool threads; // it runs in several
   double units; // that one piece of work treats, as lanes or matrices; 0: 1. Times are for one unit
 } bench_runner;
 

@@ -16,7 +16,7 @@
 #include <stddef.h>
 
 typedef struct bench_subject {
-  bike_bicycle bicycle; // with a rider
+  bike_bicycle bicycle; //
   bike_model model;
   bike_state state;      // of a single evaluation: generic, nothing zero that matters
   bike_state ride_start; // of rides: roll, hands off

@@ -89,7 +89,8 @@ int main(int argc, char **argv) {
                                    parse,
                                    "[FILE]",
                                    "What a bicycle costs, in units of others' work on the same "
-                                   "bicycle, which needs a rider (default: the roadster).",
+                                   "bicycle (default: the roadster). Exit status 1: a peer answers "
+                                   "something else and was not timed.",
                                    NULL,
                                    NULL,
                                    NULL};

@@ -3,8 +3,15 @@
 
 #include "terminal/message.h"
 
+// Some warnings are expected, for the search for a step starts where steps are too long; what comes
+// of that shows in the error of the ride, and MuJoCo would write a log file.
+static void unheard(const char *text) {
+  (void)text;
+}
+
 bool bench_twin_open(bench_twin *out, const bike_bicycle *bicycle, const bike_state *state) {
   *out = (bench_twin){0};
+  mju_user_warning = unheard;
   mjcf_options options = mjcf_default_options();
   options.visible = false;
   mjcf_error error;
