@@ -7,13 +7,13 @@
 #include "terminal/data.h"
 #include "terminal/json.h"
 #include "terminal/progress.h"
+#include "terminal/threads.h"
 
 #include <bicycle/error.h>
 #include <bicycle/stability.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char example[] =
     "Example: bicycle basin roadster --speed 5.8 -o basin.svg\n"
@@ -30,12 +30,12 @@ typedef struct arguments {
   double time;               // s
   term_range leans, steers;  // rad
   double speed;              // m/s; NaN: not given
-  long threads;
+  int threads;
   term_show show;
 } arguments;
 
 enum { KEY_SPEED = TERM_KEY_FIRST, KEY_LEANS, KEY_STEERS, KEY_TIME, KEY_THREADS };
-enum { MOST_POINTS = 1001, MOST_THREADS = 64 };
+enum { MOST_POINTS = 1001 };
 
 static term_range angles_of(const char *option, const char *text) {
   term_range range;
@@ -71,8 +71,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     if (args->time < 2) term_usage("--time: %s s is too short to tell a fate (2 s or more)", text);
     return 0;
   case KEY_THREADS:
-    if (!term_parse_integer(&args->threads, text, 1, MOST_THREADS))
-      term_usage("--threads: '%s' is not a number from 1 to %d", text, MOST_THREADS);
+    args->threads = term_threads_of("--threads", text);
     return 0;
   case ARGP_KEY_END:
     if (isnan(args->speed)) term_usage("--speed is missing");
@@ -93,14 +92,11 @@ static const struct argp_option options[] = {
 };
 
 static arguments defaults(void) {
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
   return (arguments){.time = 60,
                      .leans = {-M_PI / 4, M_PI / 4, 61},
                      .steers = {-M_PI / 3, M_PI / 3, 61},
                      .speed = NAN,
-                     .threads = processors < 1              ? 1
-                                : processors > MOST_THREADS ? MOST_THREADS
-                                                            : processors};
+                     .threads = term_processors()};
 }
 
 static void show_progress(double done, void *user) {
@@ -128,7 +124,7 @@ static int find_basin(basin_map *map, const bike_model *model, const arguments *
   def.steers = map->steers;
   def.lean_count = (size_t)map->nx;
   def.steer_count = (size_t)map->ny;
-  def.threads = (int)args->threads;
+  def.threads = args->threads;
   def.progress = show_progress;
   def.user = &progress;
   int code = bike_basin(map->fates, model, &def);

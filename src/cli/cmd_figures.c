@@ -6,6 +6,7 @@
 #include "figures/figure_range.h"
 #include "terminal/command.h"
 #include "terminal/data.h"
+#include "terminal/threads.h"
 
 #include <bicycle/error.h>
 #include <bicycle/stability.h>
@@ -26,6 +27,7 @@ typedef struct arguments {
   term_range speeds, leans;              // of figure 2
   term_range inertia, trail;             // of figures 3 and 4; count 0: from the bicycle
   double fastest_inertia, fastest_trail; // m/s  ends of their axes
+  int threads;
   bike_convention convention;
 } arguments;
 
@@ -36,6 +38,7 @@ enum {
   KEY_TRAIL,
   KEY_FASTEST_INERTIA,
   KEY_FASTEST_TRAIL,
+  KEY_THREADS,
   KEY_CONVENTION
 };
 
@@ -87,6 +90,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case KEY_FASTEST_TRAIL:
     args->fastest_trail = term_positive_of("--fastest-trail", text);
     return 0;
+  case KEY_THREADS:
+    args->threads = term_threads_of("--threads", text);
+    return 0;
   case KEY_CONVENTION:
     if (!term_parse_convention(&args->convention, text))
       term_usage("--convention: '%s' is neither iso nor sae", text);
@@ -110,12 +116,16 @@ static const struct argp_option options[] = {
     {"trail", KEY_TRAIL, "A:B:N", 0, "Trails of figure 4, m (zero to twice the bicycle's, 201)", 4},
     {"fastest-trail", KEY_FASTEST_TRAIL, "V", 0,
      "End of figure 4's axis of speed, m/s (from the stable range)", 4},
+    {"threads", KEY_THREADS, "N", 0, "Threads (all processors)", 7},
     {"convention", KEY_CONVENTION, "iso|sae", 0,
      "Steer left (iso, the default) or right positive (sae)", 8},
     {0},
 };
 
-static const arguments defaults = {.leans = {0, M_PI / 4, 181}};
+static arguments defaults(void) {
+  return (arguments){.leans = {0, M_PI / 4, 181}, .threads = term_processors()};
+}
+
 enum { SPEEDS = 241 };
 
 // A round number not below x.
@@ -154,7 +164,7 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
              "is the rider.");
     return BIKE_OK;
   }
-  int code = turn_map_make(&map, model, &args->speeds, &args->leans, progress);
+  int code = turn_map_make(&map, model, &args->speeds, &args->leans, args->threads, progress);
   if (!code && !figure_add_maps(set, &map, term_left_sign(args->convention)))
     code = BIKE_ERROR_MEMORY;
   turn_map_free(&map);
@@ -218,7 +228,7 @@ static int add_figure_4(figure_set *set, const arguments *args, term_progress *p
 int cmd_figures(int argc, char **argv) {
   const struct argp_child children[] = {{&term_file_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
-  arguments args = defaults;
+  arguments args = defaults();
   term_parse(&argp, example, argc, argv, &args);
 
   bike_bicycle bicycle;

@@ -2,7 +2,7 @@
 #include "map.h"
 
 #include <bicycle/error.h>
-#include <bicycle/turn.h>
+#include <bicycle/map.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,35 +29,6 @@ static bool allocate(turn_map *map, const term_range *speeds, const term_range *
   return true;
 }
 
-// The motion at a node, started from a neighbour's if that is known.
-static int solve(bike_turn *out, const bike_model *model, double speed, double lean,
-                 const bike_turn *neighbour) {
-  bike_turn_def def = bike_default_turn_def();
-  def.given[BIKE_TURN_SPEED] = def.given[BIKE_TURN_LEAN] = true;
-  def.value[BIKE_TURN_SPEED] = speed;
-  def.value[BIKE_TURN_LEAN] = lean;
-  return bike_turn_near(out, model, &def, neighbour);
-}
-
-// A neighbour counts once it is solved: its speed is then not NaN.
-static int solve_node(turn_map *map, bike_turn *row, const bike_model *model, int i, int j) {
-  bike_turn found, upright = {0};
-  const bike_turn *below = j > 0 ? &row[j - 1] : &upright, *beside = &row[j];
-  int code = BIKE_ERROR_NO_CONVERGENCE;
-  if (!isnan(below->speed)) code = solve(&found, model, map->speed[i], map->lean[j], below);
-  if (code && code != BIKE_ERROR_NO_RIDER && !isnan(beside->speed))
-    code = solve(&found, model, map->speed[i], map->lean[j], beside);
-  if (code) {
-    row[j].speed = NAN;
-    return code == BIKE_ERROR_NO_RIDER || code == BIKE_ERROR_MEMORY ? code : BIKE_OK;
-  }
-  row[j] = found;
-  map->steer[j * map->nx + i] = found.steer;
-  map->rider_offset[j * map->nx + i] = found.rider_offset;
-  map->eps[j * map->nx + i] = found.eps_max;
-  return BIKE_OK;
-}
-
 // At low speed the steer passes through the end of the geometry and comes back with the other sign:
 // between such motions nothing lies that a contour could show. Elsewhere the steer changes by a few
 // degrees from node to node at most.
@@ -73,18 +44,30 @@ static void find_tears(turn_map *map) {
   }
 }
 
+static void show(double done, void *user) {
+  term_progress_show(user, "figure 2", done);
+}
+
 int turn_map_make(turn_map *out, const bike_model *model, const term_range *speeds,
-                  const term_range *leans, term_progress *progress) {
-  bike_turn *row = calloc((size_t)leans->count, sizeof *row);
-  int code = allocate(out, speeds, leans) && row ? BIKE_OK : BIKE_ERROR_MEMORY;
-  for (long j = 0; row && j < leans->count; j++) row[j].speed = NAN;
-  // from fast to slow: fast riding steers little and is solved from upright riding
-  for (int i = out->nx - 1; i >= 0 && !code; i--) {
-    for (int j = 0; j < out->ny && !code; j++) code = solve_node(out, row, model, i, j);
-    term_progress_show(progress, "figure 2", 1 - (double)i / out->nx);
+                  const term_range *leans, int threads, term_progress *progress) {
+  size_t count = (size_t)speeds->count * (size_t)leans->count;
+  bike_map_node *nodes = calloc(count, sizeof *nodes);
+  int code = allocate(out, speeds, leans) && nodes ? BIKE_OK : BIKE_ERROR_MEMORY;
+  bike_map_def def = {.speeds = out->speed,
+                      .leans = out->lean,
+                      .speed_count = (size_t)out->nx,
+                      .lean_count = (size_t)out->ny,
+                      .threads = threads,
+                      .progress = show,
+                      .user = progress};
+  if (!code) code = bike_map_turns(nodes, model, &def);
+  for (size_t k = 0; k < count && !code; k++) {
+    out->steer[k] = nodes[k].steer;
+    out->rider_offset[k] = nodes[k].rider_offset;
+    out->eps[k] = nodes[k].eps_max;
   }
   if (!code) find_tears(out);
-  free(row);
+  free(nodes);
   return code;
 }
 

@@ -19,7 +19,7 @@ typedef struct turn_map {
 
 // Errors: MEMORY, NO_RIDER, and whatever is wrong with the model. Free it in any case.
 int turn_map_make(turn_map *out, const bike_model *model, const term_range *speeds,
-                  const term_range *leans, term_progress *progress);
+                  const term_range *leans, int threads, term_progress *progress);
 void turn_map_free(turn_map *map);
 
 #endif
