@@ -236,7 +236,7 @@ static void test_cost(void **state) {
   (void)state;
   support_run *f = support_open(
       NULL, "title: cost\nbicycle: benchmark\nstart: {speed: 5, lean_rate: 0.1}\nduration: 0.5\n"
-            "sample: 0.01\ninstants: {count: 0}\nreference: {engine: analytic}\n"
+            "sample: 0.25\ninstants: {count: 0}\nreference: {engine: analytic}\n"
             "candidate: {engine: mujoco}\ncost: {repeats: 3}\n"
             "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1, reason: test}\n");
   comparison *c = support_play(f);
@@ -249,7 +249,8 @@ static void test_cost(void **state) {
   }
   assert_int_equal(cost->run[1].steps, 500);
   assert_int_equal(cost->run[1].evaluations, 2000);
-  assert_true(cost->run[2].error > cost->run[5].error); // rtol 1e-6 against 1e-12
+  // rtol 1e-6 against 1e-12, with samples so far apart that they do not keep the steps short
+  assert_true(cost->run[2].error > 10 * cost->run[5].error);
   assert_true(cost->run[2].evaluations < cost->run[5].evaluations);
   json_t *object = json_object(), *timings = json_object();
   report_add_layers(object, c);
