@@ -3,7 +3,7 @@
 #include "engine_mujoco.h"
 
 #include "engine_differences.h"
-#include "sha256.h"
+#include "files/sha256.h"
 
 #include <bicycle_import.h>
 

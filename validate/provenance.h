@@ -3,7 +3,7 @@
 #ifndef VALIDATE_PROVENANCE_H
 #define VALIDATE_PROVENANCE_H
 
-#include "sha256.h"
+#include "files/sha256.h"
 
 #include <bicycle/bicycle.h>
 

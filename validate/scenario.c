@@ -77,7 +77,7 @@ static int read_rider_offset(const bike_yaml *yaml, const bike_field *field, voi
 }
 
 static int displace_rider(const bike_yaml *yaml, scenario *s) {
-  bike_field field = {"rider_offset", 0, NULL};
+  bike_field field = {.key = "rider_offset"};
   if (s->rider_offset == 0) return BIKE_OK;
   bike_yaml_find(yaml->root, field.key, &field);
   for (int i = 0; i < s->bicycle.part_count; i++) {
@@ -221,7 +221,7 @@ static bool judges(const gate_rules *rules) {
 
 // What no single key can be blamed for.
 static int check_whole(const bike_yaml *yaml, const scenario *s) {
-  bike_field field = {"sample", 0, NULL};
+  bike_field field = {.key = "sample"};
   bike_yaml_find(yaml->root, "sample", &field);
   if (s->sample > s->duration)
     return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "is longer than the duration");

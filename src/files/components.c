@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `parameterization: components`: the frame as builders measure it, and a list of parts.
+#include "components.h"
 #include "forms.h"
 
 #include <bicycle/error.h>
@@ -11,35 +12,7 @@
 // in whole micrometres, and is put there.
 static const double HUB_TOLERANCE = 1e-6;
 
-typedef enum inertia_kind {
-  INERTIA_NONE,
-  INERTIA_SPIN,
-  INERTIA_STEERING,
-  INERTIA_FULL
-} inertia_kind;
-
-typedef struct component {
-  bike_part part;    // its tensor is filled in when the steering axis is known
-  inertia_kind kind; //
-  double theta;      // kg m^2   of spin and steering
-  bool has_position; //
-  bike_field field;  // the whole entry
-} component;
-
-typedef struct description {
-  char name[BIKE_NAME_SIZE];
-  double gravity, steer_damping;
-  bike_geometry geometry;
-  bike_field geometry_field, parts_field;
-  int count;
-  component parts[BIKE_MAX_PARTS];
-} description;
-
 // ---- geometry ----
-
-typedef struct measures {
-  double wheelbase, trail, head_angle, rear_radius, front_radius;
-} measures;
 
 static int read_head_angle(const bike_yaml *yaml, const bike_field *field, void *target) {
   const int code = bike_yaml_number(yaml, field, target);
@@ -49,20 +22,22 @@ static int read_head_angle(const bike_yaml *yaml, const bike_field *field, void 
                         "must be in radians, between 0 and pi (pi/2: upright)");
 }
 
-static int read_measures(const bike_yaml *yaml, const bike_field *field, bike_geometry *out) {
+static int read_measures(const bike_yaml *yaml, const bike_field *field, bike_description *d) {
   static const bike_key keys[] = {
-      {"wheelbase", bike_yaml_positive, offsetof(measures, wheelbase), true},
-      {"trail", bike_yaml_number, offsetof(measures, trail), true},
-      {"head_angle", read_head_angle, offsetof(measures, head_angle), true},
-      {"rear_radius", bike_yaml_positive, offsetof(measures, rear_radius), true},
-      {"front_radius", bike_yaml_positive, offsetof(measures, front_radius), true},
+      {"wheelbase", bike_yaml_positive, offsetof(bike_measures, wheelbase), true},
+      {"trail", bike_yaml_number, offsetof(bike_measures, trail), true},
+      {"head_angle", read_head_angle, offsetof(bike_measures, head_angle), true},
+      {"rear_radius", bike_yaml_positive, offsetof(bike_measures, rear_radius), true},
+      {"front_radius", bike_yaml_positive, offsetof(bike_measures, front_radius), true},
   };
-  measures m;
-  const int code = bike_yaml_read(yaml, field, field->value, (bike_keys){keys, 5}, &m);
-  if (!code)
-    *out = bike_geometry_from_wheelbase(m.wheelbase, m.trail, M_PI / 2 - m.head_angle,
-                                        m.rear_radius, m.front_radius);
+  const int code = bike_yaml_read(yaml, field, field->value, (bike_keys){keys, 5}, &d->measures);
+  if (!code) d->geometry = bike_geometry_of_measures(&d->measures);
   return code;
+}
+
+bike_geometry bike_geometry_of_measures(const bike_measures *m) {
+  return bike_geometry_from_wheelbase(m->wheelbase, m->trail, M_PI / 2 - m->head_angle,
+                                      m->rear_radius, m->front_radius);
 }
 
 static int read_lengths(const bike_yaml *yaml, const bike_field *field, bike_geometry *out) {
@@ -78,22 +53,21 @@ static int read_lengths(const bike_yaml *yaml, const bike_field *field, bike_geo
 
 // The first key tells which of the two sets the file uses.
 static int read_geometry(const bike_yaml *yaml, const bike_field *field, void *target) {
-  description *d = target;
+  bike_description *d = target;
   d->geometry_field = *field;
   const int code = bike_yaml_expect_mapping(yaml, field);
   if (code) return code;
   void *cursor = NULL;
   bike_field first = {.key = ""};
   bike_yaml_next(field->value, &cursor, &first);
-  const bool lengths = strncmp(first.key, "L_", 2) == 0 || strncmp(first.key, "R_", 2) == 0;
-  return lengths ? read_lengths(yaml, field, &d->geometry)
-                 : read_measures(yaml, field, &d->geometry);
+  d->by_lengths = strncmp(first.key, "L_", 2) == 0 || strncmp(first.key, "R_", 2) == 0;
+  return d->by_lengths ? read_lengths(yaml, field, &d->geometry) : read_measures(yaml, field, d);
 }
 
 // ---- parts ----
 
 static int read_part_name(const bike_yaml *yaml, const bike_field *field, void *target) {
-  component *c = target;
+  bike_component *c = target;
   return bike_yaml_text(yaml, field, c->part.name, sizeof c->part.name);
 }
 
@@ -101,7 +75,7 @@ static int read_assembly(const bike_yaml *yaml, const bike_field *field, void *t
   static const char *const words[] = {"rear", "rear_wheel", "front", "front_wheel"};
   static const bike_assembly assemblies[] = {BIKE_REAR_FRAME, BIKE_REAR_WHEEL, BIKE_FRONT_FRAME,
                                              BIKE_FRONT_WHEEL};
-  component *c = target;
+  bike_component *c = target;
   for (int i = 0; i < 4; ++i) {
     if (!bike_yaml_is_text(field, words[i])) continue;
     c->part.assembly = assemblies[i];
@@ -112,19 +86,19 @@ static int read_assembly(const bike_yaml *yaml, const bike_field *field, void *t
 }
 
 static int read_position(const bike_yaml *yaml, const bike_field *field, void *target) {
-  component *c = target;
+  bike_component *c = target;
   c->has_position = true;
   return bike_yaml_numbers(yaml, field, c->part.position, 3);
 }
 
-static int read_theta(const bike_yaml *yaml, const bike_field *field, component *c,
-                      inertia_kind kind) {
+static int read_theta(const bike_yaml *yaml, const bike_field *field, bike_component *c,
+                      bike_inertia_kind kind) {
   c->kind = kind;
   return bike_yaml_not_negative(yaml, field, &c->theta);
 }
 
 static int read_inertia(const bike_yaml *yaml, const bike_field *field, void *target) {
-  component *c = target;
+  bike_component *c = target;
   if (bike_yaml_is_text(field, "none")) return BIKE_OK;
   static const char kinds[] = "must be none, or one of spin: T, steering: T, full: [Ixx, Iyy, Izz, "
                               "Ixy, Ixz, Iyz]";
@@ -133,22 +107,22 @@ static int read_inertia(const bike_yaml *yaml, const bike_field *field, void *ta
   if (!bike_yaml_is_mapping(field) || !bike_yaml_next(field->value, &cursor, &inner) ||
       bike_yaml_next(field->value, &cursor, &more))
     return bike_yaml_fail(yaml, field, BIKE_ERROR_SYNTAX, "%s", kinds);
-  if (strcmp(inner.key, "spin") == 0) return read_theta(yaml, &inner, c, INERTIA_SPIN);
-  if (strcmp(inner.key, "steering") == 0) return read_theta(yaml, &inner, c, INERTIA_STEERING);
+  if (strcmp(inner.key, "spin") == 0) return read_theta(yaml, &inner, c, BIKE_INERTIA_SPIN);
+  if (strcmp(inner.key, "steering") == 0) return read_theta(yaml, &inner, c, BIKE_INERTIA_STEERING);
   if (strcmp(inner.key, "full") != 0)
     return bike_yaml_fail(yaml, &inner, BIKE_ERROR_SYNTAX, "unknown key: inertia %s", kinds);
-  c->kind = INERTIA_FULL;
+  c->kind = BIKE_INERTIA_FULL;
   return bike_yaml_numbers(yaml, &inner, c->part.inertia, 6);
 }
 
-static int read_component(const bike_yaml *yaml, const bike_field *entry, component *out) {
+static int read_component(const bike_yaml *yaml, const bike_field *entry, bike_component *out) {
   static const bike_key keys[] = {
       {"name", read_part_name, 0, true},
       {"assembly", read_assembly, 0, true},
-      {"mass", bike_yaml_positive, offsetof(component, part.mass), true},
+      {"mass", bike_yaml_positive, offsetof(bike_component, part.mass), true},
       {"position", read_position, 0, false},
       {"inertia", read_inertia, 0, true},
-      {"rider", bike_yaml_flag, offsetof(component, part.rider), false},
+      {"rider", bike_yaml_flag, offsetof(bike_component, part.rider), false},
   };
   const int code = bike_yaml_expect_mapping(yaml, entry);
   out->field = *entry;
@@ -156,7 +130,7 @@ static int read_component(const bike_yaml *yaml, const bike_field *entry, compon
 }
 
 static int read_parts(const bike_yaml *yaml, const bike_field *field, void *target) {
-  description *d = target;
+  bike_description *d = target;
   d->parts_field = *field;
   int code = bike_yaml_expect_list(yaml, field);
   void *cursor = NULL;
@@ -172,24 +146,24 @@ static int read_parts(const bike_yaml *yaml, const bike_field *field, void *targ
 
 // ---- the bicycle of the description ----
 
-// Theta e e^T in (forward, left, up): about the hub axis e = left, or about the steering axis
-// e_S = (-sin tilt, 0, cos tilt).
-static void fill_tensor(component *c, double tilt) {
+// Theta e e^T: about the hub axis e = left, or about the steering axis e_S = (-sin tilt, 0, cos
+// tilt).
+void bike_component_tensor(bike_component *c, double tilt) {
   double *inertia = c->part.inertia;
-  if (c->kind == INERTIA_SPIN) inertia[1] = c->theta;
-  if (c->kind != INERTIA_STEERING) return;
+  if (c->kind == BIKE_INERTIA_SPIN) inertia[1] = c->theta;
+  if (c->kind != BIKE_INERTIA_STEERING) return;
   inertia[0] = c->theta * sin(tilt) * sin(tilt);
   inertia[2] = c->theta * cos(tilt) * cos(tilt);
   inertia[4] = -c->theta * sin(tilt) * cos(tilt);
 }
 
-static bike_field part_field(const component *c, const char *key) {
+static bike_field part_field(const bike_component *c, const char *key) {
   bike_field field = c->field;
   bike_yaml_find(c->field.value, key, &field);
   return field;
 }
 
-static int place_part(const bike_yaml *yaml, component *c, const bike_upright *upright) {
+static int place_part(const bike_yaml *yaml, bike_component *c, const bike_upright *upright) {
   const bool rear = c->part.assembly == BIKE_REAR_WHEEL;
   if (!rear && c->part.assembly != BIKE_FRONT_WHEEL) {
     if (c->has_position) return BIKE_OK;
@@ -211,7 +185,7 @@ static int place_part(const bike_yaml *yaml, component *c, const bike_upright *u
 
 // The line to blame for a rule of bike_check, which begins with the member it is about.
 static int component_line(int part, const char *rule, const char **key, const void *user) {
-  const description *d = user;
+  const bike_description *d = user;
   bike_field field = part >= 0 ? d->parts[part].field : d->parts_field;
   char word[16];
   snprintf(word, sizeof word, "%.*s", (int)strcspn(rule, " "), rule);
@@ -220,7 +194,7 @@ static int component_line(int part, const char *rule, const char **key, const vo
   return field.line;
 }
 
-static int build(bike_bicycle *out, description *d, const bike_yaml *yaml) {
+static int build(bike_bicycle *out, bike_description *d, const bike_yaml *yaml) {
   bike_upright upright;
   const int impossible = bike_upright_position(&upright, &d->geometry);
   if (impossible)
@@ -233,7 +207,7 @@ static int build(bike_bicycle *out, description *d, const bike_yaml *yaml) {
   bicycle.part_count = d->count;
   memcpy(bicycle.name, d->name, sizeof bicycle.name);
   for (int i = 0; i < d->count; ++i) {
-    fill_tensor(&d->parts[i], upright.tilt);
+    bike_component_tensor(&d->parts[i], upright.tilt);
     const int code = place_part(yaml, &d->parts[i], &upright);
     if (code) return code;
     bicycle.parts[i] = d->parts[i].part;
@@ -247,17 +221,17 @@ static int read_name(const bike_yaml *yaml, const bike_field *field, void *targe
   return bike_yaml_text(yaml, field, target, BIKE_NAME_SIZE);
 }
 
-int bike_read_components(bike_bicycle *out, const bike_yaml *yaml) {
+int bike_read_components(bike_bicycle *out, bike_description *d, const bike_yaml *yaml) {
   static const bike_key keys[] = {
       {"parameterization", bike_yaml_ignored_text, 0, true}, // what brought us here
-      {"name", read_name, offsetof(description, name), false},
+      {"name", read_name, offsetof(bike_description, name), false},
       {"description", bike_yaml_ignored_text, 0, false},
-      {"g", bike_yaml_positive, offsetof(description, gravity), true},
-      {"steer_damping", bike_yaml_not_negative, offsetof(description, steer_damping), false},
+      {"g", bike_yaml_positive, offsetof(bike_description, gravity), true},
+      {"steer_damping", bike_yaml_not_negative, offsetof(bike_description, steer_damping), false},
       {"geometry", read_geometry, 0, true},
       {"parts", read_parts, 0, true},
   };
-  description d = {0};
-  const int code = bike_yaml_read(yaml, NULL, yaml->root, (bike_keys){keys, 7}, &d);
-  return code ? code : build(out, &d, yaml);
+  *d = (bike_description){0};
+  const int code = bike_yaml_read(yaml, NULL, yaml->root, (bike_keys){keys, 7}, d);
+  return code ? code : build(out, d, yaml);
 }

@@ -3,6 +3,7 @@
 #ifndef FILES_FORMS_H
 #define FILES_FORMS_H
 
+#include "components.h"
 #include "meijaard.h"
 #include "yaml.h"
 
@@ -11,7 +12,8 @@
 int bike_read_values_form(bike_symbols *out, char name[BIKE_NAME_SIZE], const bike_yaml *yaml);
 int bike_read_flat_form(bike_symbols *out, char name[BIKE_NAME_SIZE], const bike_yaml *yaml);
 
-// `parameterization: components`, checked whole. The bicycle's name is empty where none is given.
-int bike_read_components(bike_bicycle *out, const bike_yaml *yaml);
+// `parameterization: components`, checked whole, and what the file says number by number. The
+// bicycle's name is empty where none is given.
+int bike_read_components(bike_bicycle *out, bike_description *description, const bike_yaml *yaml);
 
 #endif

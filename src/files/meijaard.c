@@ -26,7 +26,7 @@ const char *const *bike_meijaard_symbols(void) {
   return SYMBOLS;
 }
 
-static const char *symbol_name(int index) {
+const char *bike_symbol_name(int index) {
   return index < BIKE_MEIJAARD_COUNT ? SYMBOLS[index] : MORE[index - BIKE_MEIJAARD_COUNT];
 }
 
@@ -43,7 +43,7 @@ static bool is_unused(const char *name) {
 
 int bike_symbol_index(const char *name) {
   for (int i = 0; i < MEIJAARD_ALL; ++i)
-    if (strcmp(name, symbol_name(i)) == 0) return i;
+    if (strcmp(name, bike_symbol_name(i)) == 0) return i;
   return is_unused(name) ? BIKE_SYMBOL_UNUSED : BIKE_SYMBOL_UNKNOWN;
 }
 
@@ -109,8 +109,8 @@ typedef struct reading {
 } reading;
 
 static int refuse(const reading *r, int symbol, int code, const char *what) {
-  return bike_message_at(r->error, code, r->path, r->symbols->line[symbol], symbol_name(symbol),
-                         what);
+  return bike_message_at(r->error, code, r->path, r->symbols->line[symbol],
+                         bike_symbol_name(symbol), what);
 }
 
 static int check_range(const reading *r) {

@@ -61,6 +61,9 @@ typedef struct bike_symbols {
 int bike_symbol_index(const char *name);
 enum { BIKE_SYMBOL_UNUSED = -1, BIKE_SYMBOL_UNKNOWN = -2 };
 
+// And back, for the place of a symbol that is used.
+const char *bike_symbol_name(int index);
+
 // Checks what was read (complete, in range) and makes the bicycle of it; `path` and `error` are for
 // messages with the symbol's line.
 int bike_symbols_to_file(bike_file *out, const bike_symbols *symbols, const char *path,

@@ -22,15 +22,28 @@ int bike_yaml_fail(const bike_yaml *yaml, const bike_field *field, int code, con
   va_start(arguments, format);
   vsnprintf(what, sizeof what, format, arguments);
   va_end(arguments);
+  if (yaml->columns && field && field->column > 0)
+    return bike_message(yaml->error, code, "%s:%d:%d: %s: %s", yaml->path, field->line,
+                        field->column, field->key, what);
   return bike_message_at(yaml->error, code, yaml->path, field ? field->line : 0,
                          field ? field->key : NULL, what);
 }
 
-// The line of a scalar, from 1, or 0 for what has no token.
+// Where a scalar begins, or NULL for what has no token.
+static const struct fy_mark *mark_of(struct fy_node *node) {
+  struct fy_token *token = node && fy_node_is_scalar(node) ? fy_node_get_scalar_token(node) : NULL;
+  return token ? fy_token_start_mark(token) : NULL;
+}
+
+// Its line and column, from 1; 0 where there is none.
 static int line_of(struct fy_node *node) {
-  struct fy_token *token = fy_node_is_scalar(node) ? fy_node_get_scalar_token(node) : NULL;
-  const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
+  const struct fy_mark *mark = mark_of(node);
   return mark ? mark->line + 1 : 0;
+}
+
+static int column_of(struct fy_node *node) {
+  const struct fy_mark *mark = mark_of(node);
+  return mark ? mark->column + 1 : 0;
 }
 
 bool bike_yaml_next(struct fy_node *mapping, void **cursor, bike_field *out) {
@@ -38,26 +51,30 @@ bool bike_yaml_next(struct fy_node *mapping, void **cursor, bike_field *out) {
   if (!pair) return false;
   struct fy_node *key = fy_node_pair_key(pair);
   const char *text = key ? fy_node_get_scalar0(key) : NULL;
-  *out = (bike_field){text ? text : "", key ? line_of(key) : 0, fy_node_pair_value(pair)};
+  *out = (bike_field){text ? text : "", line_of(key), fy_node_pair_value(pair), column_of(key)};
   return true;
 }
 
-// The first line found in a node, or `otherwise` for empty ones.
-static int first_line(struct fy_node *node, int otherwise) {
-  if (fy_node_is_mapping(node)) {
-    void *cursor = NULL;
-    bike_field field;
-    return bike_yaml_next(node, &cursor, &field) && field.line ? field.line : otherwise;
-  }
-  const int line = fy_node_is_scalar(node) ? line_of(node) : 0;
-  return line ? line : otherwise;
+// The first place found in a node: its own, or of a mapping that of its first key. Line 0 for empty
+// ones.
+static bike_field first_place(struct fy_node *node) {
+  bike_field first = {0};
+  void *cursor = NULL;
+  if (fy_node_is_mapping(node))
+    bike_yaml_next(node, &cursor, &first);
+  else
+    first = (bike_field){.line = line_of(node), .column = column_of(node)};
+  return first;
 }
 
 bool bike_yaml_next_entry(struct fy_node *list, void **cursor, bike_field *out) {
   struct fy_node *entry = fy_node_sequence_iterate(list, cursor);
   if (!entry) return false;
   out->value = entry;
-  out->line = first_line(entry, out->line);
+  const bike_field first = first_place(entry);
+  if (!first.line) return true;
+  out->line = first.line;
+  out->column = first.column;
   return true;
 }
 
@@ -89,7 +106,8 @@ static int check_mapping(const bike_yaml *yaml, const bike_field *where, int dep
     struct fy_node *key = fy_node_pair_key(pair);
     if (!key || !fy_node_is_scalar(key) || fy_node_is_alias(key) || !fy_node_get_scalar0(key))
       return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "a key must be text");
-    field = (bike_field){fy_node_get_scalar0(key), line_of(key), fy_node_pair_value(pair)};
+    field = (bike_field){fy_node_get_scalar0(key), line_of(key), fy_node_pair_value(pair),
+                         column_of(key)};
     if (forbidden(key))
       return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "%s", forbidden(key));
     const int code = check_plain(yaml, field, depth);
@@ -126,6 +144,9 @@ static int parse_error(const bike_yaml *yaml) {
   const struct fy_diag_error *first = fy_diag_errors_iterate(yaml->diagnostics, &cursor);
   if (!first)
     return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, 0, NULL, "is not YAML");
+  if (yaml->columns && first->line > 0)
+    return bike_message(yaml->error, BIKE_ERROR_SYNTAX, "%s:%d:%d: %s", yaml->path, first->line,
+                        first->column, first->msg);
   return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first->line, NULL, first->msg);
 }
 
@@ -151,9 +172,10 @@ static int check_document(bike_yaml *yaml) {
   }
   if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml);
   if (!fy_node_is_mapping(yaml->root))
-    return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, first_line(yaml->root, 1),
-                           NULL, "must hold `key: value` pairs");
-  return check_plain(yaml, (bike_field){"", 1, yaml->root}, 0);
+    return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path,
+                           first_place(yaml->root).line ? first_place(yaml->root).line : 1, NULL,
+                           "must hold `key: value` pairs");
+  return check_plain(yaml, (bike_field){.key = "", .line = 1, .value = yaml->root}, 0);
 }
 
 // Collects errors: a library does not print.
@@ -166,13 +188,24 @@ static struct fy_diag *create_diagnostics(void) {
   return diagnostics;
 }
 
-int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,
-                   bike_file_error *error) {
-  *out = (bike_yaml){.path = path, .error = error, .diagnostics = create_diagnostics()};
+static int open_text(bike_yaml *out, const bike_text *text, const char *path, bool columns,
+                     bike_file_error *error) {
+  *out = (bike_yaml){
+      .path = path, .error = error, .columns = columns, .diagnostics = create_diagnostics()};
   if (out->diagnostics) out->parser = create_parser(out->diagnostics, text);
   if (!out->parser) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
   out->document = fy_parse_load_document(out->parser);
   return check_document(out);
+}
+
+int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,
+                   bike_file_error *error) {
+  return open_text(out, text, path, false, error);
+}
+
+int bike_yaml_open_with_columns(bike_yaml *out, const bike_text *text, const char *path,
+                                bike_file_error *error) {
+  return open_text(out, text, path, true, error);
 }
 
 void bike_yaml_close(bike_yaml *yaml) {

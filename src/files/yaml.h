@@ -21,6 +21,7 @@ struct fy_parser;
 typedef struct bike_yaml {
   const char *path;             // as the user gave it; the caller's
   bike_file_error *error;       // where messages go; may be NULL
+  bool columns;                 // messages say "path:line:column: key: what"
   struct fy_diag *diagnostics;  // libfyaml's complaints
   struct fy_parser *parser;     //
   struct fy_document *document; //
@@ -32,6 +33,7 @@ typedef struct bike_field {
   const char *key;       //
   int line;              // of the key, from 1
   struct fy_node *value; //
+  int column;            // from 1; 0 where it is not known
 } bike_field;
 
 // What reads the value of a key into `target`. Returns 0 or an error whose message is written.
@@ -54,6 +56,8 @@ typedef struct bike_keys {
 // Parses the text of a file. BIKE_ERROR_SYNTAX or BIKE_ERROR_MEMORY; on success the text must
 // outlive the document, which bike_yaml_close ends. `out` is safe to close in any case.
 int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path, bike_file_error *error);
+int bike_yaml_open_with_columns(bike_yaml *out, const bike_text *text, const char *path,
+                                bike_file_error *error);
 void bike_yaml_close(bike_yaml *yaml);
 
 // Reads a whole mapping by its list: unknown keys, keys given twice and missing keys are errors.
@@ -68,7 +72,7 @@ bool bike_yaml_next_entry(struct fy_node *list, void **cursor, bike_field *out);
 // The pair with that key, if the mapping holds it.
 bool bike_yaml_find(struct fy_node *mapping, const char *key, bike_field *out);
 
-// Writes "path:line: key: what" and returns `code`.
+// Writes "path:line: key: what", or with the column, and returns `code`.
 int bike_yaml_fail(const bike_yaml *yaml, const bike_field *field, int code, const char *format,
                    ...) __attribute__((format(printf, 4, 5)));
 

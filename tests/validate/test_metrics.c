@@ -2,10 +2,10 @@
 // Metrics on made-up data, gates on made-up measurements, traces.
 #include "support/near.h"
 
+#include "files/sha256.h"
 #include <gate.h>
 #include <layer.h>
 #include <metrics.h>
-#include <sha256.h>
 #include <stdlib.h>
 #include <string.h>
 

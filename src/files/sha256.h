@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SHA-256 (FIPS 180-4), so that a report can say which model it is about and `sha256sum` can check.
-#ifndef VALIDATE_SHA256_H
-#define VALIDATE_SHA256_H
+#ifndef FILES_SHA256_H
+#define FILES_SHA256_H
 
 #include <stddef.h>
 
