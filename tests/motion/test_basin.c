@@ -3,6 +3,7 @@
 #include "equations/bicycles.h"
 #include "support/near.h"
 #include <bicycle/basin.h>
+#include <bicycle/cycle.h>
 #include <bicycle/error.h>
 #include <bicycle/turn.h>
 #include <string.h>
@@ -44,6 +45,57 @@ static void known_fates(void **state) {
   def.speed = 5.8;
   assert_int_equal(bike_fate_of(&out, &time, &model, &def, 0.01 * DEGREE, 0), BIKE_OK);
   assert_true(out == BIKE_FATE_STRAIGHT && time > 0.9);
+}
+
+static bike_fate fate_from(const bike_model *model, bike_state start, double offset, double *time) {
+  bike_fate out;
+  bike_basin_def def = bike_default_basin_def();
+  assert_int_equal(bike_fate_of_start(&out, time, model, &def, &start, offset), BIKE_OK);
+  return out;
+}
+
+// From the same starts both ways of asking have the same answer, decided at the same time.
+static void any_start_agrees_with_the_basin(void **state) {
+  (void)state;
+  bike_model model = roadster();
+  bike_basin_def def = bike_default_basin_def();
+  def.speed = 5.8;
+  for (int lean = -60; lean <= 60; lean += 12)
+    for (int steer = -60; steer <= 60; steer += 20) {
+      bike_fate expected;
+      double time, expected_time;
+      bike_state start = {.lean = lean * DEGREE, .steer = steer * DEGREE};
+      assert_int_equal(
+          bike_fate_of(&expected, &expected_time, &model, &def, start.lean, start.steer), BIKE_OK);
+      if (expected == BIKE_FATE_NO_START) continue;
+      assert_int_equal(bike_speed_of_equal_energy(&start.speed, &model, &start, 5.8), BIKE_OK);
+      assert_int_equal(fate_from(&model, start, 0, &time), expected);
+      assert_near(time, expected_time, 1e-6);
+    }
+}
+
+static void fates_of_rates_and_offsets(void **state) {
+  (void)state;
+  double time;
+  bike_model model = roadster();
+  assert_int_equal(fate_from(&model, (bike_state){.speed = 5.8, .lean_rate = 0.2}, 0, &time),
+                   BIKE_FATE_STRAIGHT);
+  assert_int_equal(fate_from(&model, (bike_state){.speed = 5.8, .lean_rate = 9}, 0, &time),
+                   BIKE_FATE_FALLEN);
+  assert_int_equal(fate_from(&model, (bike_state){.speed = 5.8, .lean = 1.5, .steer = 1}, 0, &time),
+                   BIKE_FATE_NO_START);
+  // a slow fall rides straight for seconds; no attraction, no return
+  assert_true(fate_from(&model, (bike_state){.speed = 8, .lean = 0.05 * DEGREE}, 0, &time) !=
+              BIKE_FATE_STRAIGHT);
+  // 3 mm beside: not straight, but a circle that attracts; beyond the weave speed none does
+  assert_int_equal(fate_from(&model, (bike_state){.speed = 5.8}, 0.003, &time), BIKE_FATE_STRAIGHT);
+  assert_true(time > 1);
+  assert_true(fate_from(&model, (bike_state){.speed = 4.5}, 0.003, &time) != BIKE_FATE_STRAIGHT);
+  bike_fate out;
+  bike_basin_def def = bike_default_basin_def();
+  model.rider_mass = 0;
+  assert_int_equal(bike_fate_of_start(&out, &time, &model, &def, &(bike_state){.speed = 5}, 0.01),
+                   BIKE_ERROR_NO_RIDER);
 }
 
 enum { SIDE = 9 };
@@ -155,6 +207,8 @@ static void impossible_questions_are_refused(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(known_fates),
+      cmocka_unit_test(any_start_agrees_with_the_basin),
+      cmocka_unit_test(fates_of_rates_and_offsets),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(basins_are_symmetric),
       cmocka_unit_test(the_leaning_circle_bounds_it),

@@ -46,4 +46,14 @@ BIKE_API int bike_basin(bike_fate *out, const bike_model *model, const bike_basi
 BIKE_API int bike_fate_of(bike_fate *out, double *time, const bike_model *model,
                           const bike_basin_def *def, double lean, double steer);
 
+// The same for any start, with its own speed and rates and the rider held at an offset (m); of
+// `def` only `duration` and `settled` are used. What the ride settles to is judged there and then,
+// at the speed that it has (a damper takes energy away): STRAIGHT where every motion about it
+// decays. With an offset, or a bicycle that is not mirror-symmetric, it is a stationary circle
+// instead of riding straight: the rates alone have stayed below `settled`. Errors: ARGUMENT,
+// NO_RIDER, NOT_FINITE, SOLVER, MEMORY.
+BIKE_API int bike_fate_of_start(bike_fate *out, double *time, const bike_model *model,
+                                const bike_basin_def *def, const bike_state *start,
+                                double rider_offset);
+
 #endif
