@@ -27,6 +27,7 @@ enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 // Programs beside this one that are part of the project.
 static const term_command neighbours[] = {
+    {"sweep", NULL, "Many bicycles, starts and speeds, on one machine or many (bicycle-sweep)"},
     {"mujoco", NULL, "The same bicycle in MuJoCo (program bicycle-mujoco)"},
     {"validate", NULL, "Compare the two simulators (program bicycle-validate)"},
 };

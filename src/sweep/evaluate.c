@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate.h"
+
+#include "files/number.h"
+
+#include <bicycle/basin.h>
+#include <bicycle/cycle.h>
+#include <bicycle/error.h>
+#include <bicycle/stability.h>
+#include <bicycle/turn.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void print_ranges(char out[SWEEP_RANGES_SIZE], const bike_critical_speeds *speeds) {
+  size_t used = 0;
+  for (int i = 0; i < speeds->range_count; i++) {
+    char low[BIKE_NUMBER_SIZE], high[BIKE_NUMBER_SIZE];
+    bike_number_print(low, speeds->ranges[i][0]);
+    bike_number_print(high, speeds->ranges[i][1]);
+    used +=
+        (size_t)snprintf(out + used, SWEEP_RANGES_SIZE - used, "%s%s:%s", i ? ";" : "", low, high);
+  }
+}
+
+static int answer_critical(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
+  bike_critical_speeds speeds;
+  const int code =
+      bike_upright_critical_speeds(&speeds, &point->model, spec->search[0], spec->search[1]);
+  if (code) return code;
+  row->numbers[SWEEP_WEAVE_SPEED] = speeds.weave_count ? speeds.weave[0] : NAN;
+  row->numbers[SWEEP_CAPSIZE_SPEED] = speeds.capsize_count ? speeds.capsize[0] : NAN;
+  print_ranges(row->ranges, &speeds);
+  return BIKE_OK;
+}
+
+static int answer_eps_max(double *out, const sweep_point *point) {
+  bike_upright_matrices upright;
+  bike_eigenvalues e;
+  int code = bike_linearize_upright(&upright, &point->model); // refuses what cannot ride straight
+  if (!code) code = bike_upright_eigenvalues(&e, &point->model, point->start.speed);
+  if (!code) *out = e.re[0];
+  return code;
+}
+
+// The circle of the main family; riding straight where the lean is zero.
+static int answer_turn(double *out, const sweep_point *point) {
+  bike_turns found;
+  bike_turn_def def = bike_default_turn_def();
+  if (point->start.lean == 0) return answer_eps_max(out, point);
+  def.given[BIKE_TURN_SPEED] = def.given[BIKE_TURN_LEAN] = true;
+  def.value[BIKE_TURN_SPEED] = point->start.speed;
+  def.value[BIKE_TURN_LEAN] = point->start.lean;
+  const int code = bike_turns_find(&found, &point->model, &def);
+  if (code) return code;
+  *out = found.count && found.turns[0].main_family ? found.turns[0].eps_max : NAN;
+  return BIKE_OK;
+}
+
+static const char *outcome_of(bike_fate fate) {
+  switch (fate) {
+  case BIKE_FATE_STRAIGHT:
+    return "recovers";
+  case BIKE_FATE_LIFTED:
+    return "lifts";
+  case BIKE_FATE_FALLEN:
+    return "falls";
+  default:
+    return "undecided";
+  }
+}
+
+static int answer_outcome(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
+  bike_basin_def def = bike_default_basin_def();
+  bike_state start = point->start;
+  bike_fate fate;
+  int code = BIKE_OK;
+  def.duration = spec->ride_time;
+  def.settled = spec->settled;
+  if (spec->same_energy)
+    code = bike_speed_of_equal_energy(&start.speed, &point->model, &start, start.speed);
+  if (!code)
+    code = bike_fate_of_start(&fate, &row->numbers[SWEEP_TIME], &point->model, &def, &start,
+                              point->rider_offset);
+  if (code) return code;
+  row->outcome = outcome_of(fate);
+  return fate == BIKE_FATE_NO_START ? BIKE_ERROR_GEOMETRY : BIKE_OK;
+}
+
+static int answer(sweep_row *row, sweep_output output, const sweep_point *point,
+                  const sweep_spec *spec) {
+  switch (output) {
+  case SWEEP_WEAVE_SPEED:
+  case SWEEP_CAPSIZE_SPEED:
+  case SWEEP_STABLE_RANGES:
+    return answer_critical(row, point, spec);
+  case SWEEP_EPS_MAX:
+    return answer_eps_max(&row->numbers[output], point);
+  case SWEEP_TURN_EPS_MAX:
+    return answer_turn(&row->numbers[output], point);
+  case SWEEP_OUTCOME:
+  case SWEEP_TIME:
+    return answer_outcome(row, point, spec);
+  case SWEEP_OUTPUT_COUNT:
+    break;
+  }
+  return BIKE_ERROR_ARGUMENT;
+}
+
+// Outputs that one computation answers together.
+static int question_of(sweep_output output) {
+  if (output <= SWEEP_STABLE_RANGES) return SWEEP_WEAVE_SPEED;
+  return output >= SWEEP_OUTCOME ? SWEEP_OUTCOME : (int)output;
+}
+
+static void evaluate_point(sweep_row *row, const sweep_spec *spec, long index) {
+  sweep_point point;
+  unsigned asked = 0; // bit: a question
+  sweep_point_at(&point, spec, index);
+  row->index = index;
+  row->outcome = "";
+  row->ranges[0] = '\0';
+  memcpy(row->values, point.values, sizeof row->values);
+  memcpy(row->error, point.error, sizeof row->error);
+  for (int i = 0; i < SWEEP_OUTPUT_COUNT; i++) row->numbers[i] = NAN;
+  for (int i = 0; i < spec->output_count && !row->error[0]; i++) {
+    const sweep_output output = spec->outputs[i];
+    if (asked >> question_of(output) & 1U) continue;
+    asked |= 1U << question_of(output);
+    const int code = answer(row, output, &point, spec);
+    if (code)
+      snprintf(row->error, sizeof row->error, "%s: %s", sweep_output_name(output),
+               bike_error_string(code));
+  }
+}
+
+void sweep_evaluate(sweep_row *rows, const sweep_spec *spec, long first, long count) {
+  for (long i = 0; i < count; i++) evaluate_point(&rows[i], spec, first + i);
+}
