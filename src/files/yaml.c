@@ -43,7 +43,10 @@ static int line_of(struct fy_node *node) {
 
 static int column_of(struct fy_node *node) {
   const struct fy_mark *mark = mark_of(node);
-  return mark ? mark->column + 1 : 0;
+  if (!mark) return 0;
+  const enum fy_node_style style = fy_node_get_style(node);
+  const bool quoted = style == FYNS_SINGLE_QUOTED || style == FYNS_DOUBLE_QUOTED;
+  return mark->column + (quoted ? 0 : 1); // of a quoted text libfyaml marks what is within
 }
 
 bool bike_yaml_next(struct fy_node *mapping, void **cursor, bike_field *out) {
@@ -55,12 +58,14 @@ bool bike_yaml_next(struct fy_node *mapping, void **cursor, bike_field *out) {
   return true;
 }
 
-// The first place found in a node: its own, or of a mapping that of its first key. Line 0 for empty
-// ones.
+// The first place found in a node: its own, of a mapping that of its first key, of a list that of
+// its first entry. Line 0 for empty ones, and for lists of lists.
 static bike_field first_place(struct fy_node *node) {
   bike_field first = {0};
   void *cursor = NULL;
-  if (fy_node_is_mapping(node))
+  if (fy_node_is_sequence(node)) node = fy_node_sequence_iterate(node, &cursor);
+  cursor = NULL;
+  if (node && fy_node_is_mapping(node))
     bike_yaml_next(node, &cursor, &first);
   else
     first = (bike_field){.line = line_of(node), .column = column_of(node)};
