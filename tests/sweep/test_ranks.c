@@ -7,8 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// As root OpenMPI asks twice whether one means it; two processors are shared by more ranks.
-#define MPIRUN "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe "
+// As root OpenMPI asks twice whether one means it; two processors are shared by more ranks. Of a
+// build with sanitizers leaks are not looked for here: OpenMPI leaves some in modules that are gone
+// by then, which no list can name; the same commands without MPI are searched.
+#define MPIRUN                                                                                     \
+  "ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun "  \
+  "--oversubscribe "
 
 static int enter(void **state) {
   run_enter_group(state);
@@ -34,7 +38,7 @@ static void ranks_change_nothing(void **state) {
   (void)state;
   need_mpirun();
   for (int ranks = 1; ranks <= 4; ranks++) {
-    char name[64], command[256];
+    char name[64], command[512];
     snprintf(command, sizeof command, MPIRUN "-n %d bicycle sweep rides.yml -o ranks%d --json",
              ranks, ranks);
     json_t *report = run_json(command);
@@ -73,7 +77,7 @@ static void a_rank_dies(int victim) {
   assert_true(result.status != 0);
   run_free(&result);
   const long lost = sweep_merged_count("died.log", "missing");
-  print_message("rank %d killed with %ld of 60 points to do\n", victim, lost);
+  print_message("rank %d killed with %ld points to do\n", victim, lost);
   assert_true(lost > 0);
   assert_int_equal(sweep_merged_count("died.log", "repeated"), 0);
   sweep_run(0, MPIRUN "-n 2 bicycle sweep rides.yml -o died");
