@@ -23,6 +23,10 @@ from_pkg_config=$(LD_LIBRARY_PATH=$(pkg-config --variable=libdir bicycle) "$work
 from_program=$(cd / && "$work/moved/bin/bicycle" stability benchmark --json |
   sed -n 's/.*"weave_speed": \([0-9.]*\).*/\1/p')
 
+# The program beside it, its neighbour and its examples.
+(cd -- "$work" && moved/bin/bicycle sweep moved/share/bicycle/sweep/trail_and_speed.yml -o installed &&
+  [ "$(wc -l <installed.csv)" -eq 1381 ])
+
 echo "weave speed: $from_cmake $from_pkg_config $from_program"
 [ "$from_cmake" = "$from_pkg_config" ]
 [ "$from_cmake" = "$from_program" ]

@@ -68,14 +68,17 @@ static void the_order_of_points(void **state) {
 
   read_example(&spec, "riders.yml");
   double mean = 0;
+  long same = 0; // draws of two axes in the same half of their ranges
   for (long k = 0; k < spec.points; k++) {
     sweep_values_at(values, &spec, k);
     sweep_values_at(again, &spec, k);
     assert_memory_equal(values, again, sizeof values[0] * (size_t)spec.axis_count);
     assert_true(values[0] == (k < 100 ? 5 : k < 200 ? 5.5 : 6));
     assert_true(values[2] >= 1.0 && values[2] < 1.15);
+    same += (values[2] < 1.075) == (values[3] < 0.36);
     mean += values[1] / (double)spec.points;
   }
+  assert_near((double)same, 150, 5 * sqrt(300.0 / 4));       // axes know nothing of each other
   assert_near(mean, 70, 5 * 10 / sqrt((double)spec.points)); // five standard errors
   sweep_spec_free(&spec);
 }
