@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // A share takes this long: short enough that a signal is obeyed soon and that workers end at about
 // the same time, long enough that handing out is nothing beside it.
 static const double SHARE_TIME = 0.25; // s
-static const long MOST_SHARE = 4096;   // points: bounds the memory of a share's records
+// Who hands out needs 50 microseconds for a share that comes by MPI. Of more workers than this the
+// shares are longer, so that half of its time is free.
+static const double MOST_ASKING = 2500;
+static const long MOST_SHARE = 4096; // points: bounds the memory of a share's records
 
 // A shard gets at least this many blocks, where there are as many points: dear regions of a map are
 // shared evenly.
@@ -65,7 +69,7 @@ bool sweep_tasks_next(sweep_tasks *t, sweep_range *out, long most) {
 }
 
 long sweep_tasks_share(const sweep_tasks *t, double rate, int workers) {
-  const double wanted = rate * SHARE_TIME;
+  const double wanted = rate * SHARE_TIME * fmax(1, workers / MOST_ASKING);
   const long most = clamp(t->left / (2L * workers), 1, MOST_SHARE);
   return wanted < (double)most ? clamp((long)wanted, 1, most) : most;
 }

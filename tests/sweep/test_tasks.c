@@ -78,6 +78,10 @@ static void shares_follow_the_rate(void **state) {
   assert_int_equal(sweep_tasks_share(&tasks, 1e9, 1000), MOST / 2000);
   assert_int_equal(sweep_tasks_share(&tasks, NAN, 2) >= 1, 1);
   sweep_tasks_end(&tasks);
+  assert_true(sweep_tasks_begin(&tasks, 100000000, (sweep_shard){1, 1}));
+  assert_int_equal(sweep_tasks_share(&tasks, 400, 2500), 100);
+  assert_int_equal(sweep_tasks_share(&tasks, 400, 25000), 1000); // who hands out must keep up
+  sweep_tasks_end(&tasks);
 }
 
 int main(void) {
