@@ -3,7 +3,7 @@
 // adds the marker of plugin/rolling.h, on two sites that are then moved to the hubs.
 #include "bicycle_import.h"
 
-#include "runner_guard.h"
+#include "bicycle_mjcf_internal.h"
 
 #include <bicycle/error.h>
 #include <stdio.h>
@@ -24,35 +24,21 @@ static char *wrapping_text(const char *base) {
   return length < 0 ? NULL : text;
 }
 
-typedef struct load {
-  const char *name;
-  mjVFS *vfs;
-  mjModel *model;
-  char error[MJCF_TEXT_SIZE];
-} load;
-
-static void load_xml(void *argument) {
-  load *l = (load *)argument;
-  l->model = mj_loadXML(l->name, l->vfs, l->error, sizeof l->error);
-}
-
 static mjModel *compile(const char *name, const char *text, mjcf_error *error) {
-  load l = {.name = name, .vfs = (mjVFS *)malloc(sizeof *l.vfs)}; // 2 MB: too large for a stack
-  guard_report report = {0};
-  if (!l.vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
-  mj_defaultVFS(l.vfs);
-  if (mj_makeEmptyFileVFS(l.vfs, name, (int)strlen(text)) == 0) {
-    memcpy(l.vfs->filedata[0], text, strlen(text));
-    guard_call(&report, load_xml, &l);
+  mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs); // 2 MB: too large for a stack
+  mjcf_error why = {""};
+  mjModel *model = NULL;
+  if (!vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  mj_defaultVFS(vfs);
+  if (mj_makeEmptyFileVFS(vfs, name, (int)strlen(text)) == 0) {
+    memcpy(vfs->filedata[0], text, strlen(text));
+    model = mjcf_call_compiler(name, vfs, &why);
   }
-  mj_deleteVFS(l.vfs);
-  free(l.vfs);
-  if (!report.failed && l.model) return l.model;
-  const char *why = report.failed ? report.error : l.error;
-  for (char *c = l.error; *c; c++)
-    if (*c == '\n') *c = ' ';
-  mjcf_fail(error, "with a marker for its wheels: %s", *why ? why : "not a MuJoCo model");
-  return NULL;
+  mj_deleteVFS(vfs);
+  free(vfs);
+  if (!model)
+    mjcf_fail(error, "with a marker for its wheels: %.400s", *why.text ? why.text : "out of memory");
+  return model;
 }
 
 // The same folder, so that what the model includes is found.

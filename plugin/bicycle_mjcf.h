@@ -72,8 +72,8 @@ char *mjcf_text(const bike_bicycle *bicycle, const mjcf_options *options, const 
 int mjcf_placeholder_count(const bike_bicycle *bicycle);
 
 // Compiles MJCF text, or the file (.xml or .mjb), and applies exact tensors (below). NULL with a
-// text in `error`; never blocks, never exits. Not to be called from two threads at a time: the
-// compiler of MuJoCo 2.2 keeps its last model globally.
+// text in `error`; never exits. The compiler of MuJoCo 2.2 keeps its last model globally: threads
+// that call these wait for each other.
 mjModel *mjcf_compile(const char *text, mjcf_error *error);
 mjModel *mjcf_load(const char *path, mjcf_error *error);
 

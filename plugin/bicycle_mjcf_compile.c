@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // From text or file to a compiled model, with every failure in one line.
-#include "bicycle_mjcf.h"
+#include "bicycle_mjcf_internal.h"
 #include "runner_guard.h"
 
 #include <bicycle/error.h>
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -35,17 +36,29 @@ static void fold(char *text) {
     if (*c == '\n' || *c == '\r') *c = ' ';
 }
 
-static mjModel *finish(load *l, void (*function)(void *), mjcf_error *error) {
+static bool is_binary(const char *path) {
+  size_t length = strlen(path);
+  return length >= 4 && strcmp(path + length - 4, ".mjb") == 0;
+}
+
+mjModel *mjcf_call_compiler(const char *path, mjVFS *vfs, mjcf_error *error) {
+  static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  load l = {.path = path, .vfs = vfs};
   guard_report report;
-  guard_call(&report, function, l);
-  fold(l->error);
-  if (report.failed || !l->model) {
-    const char *why = report.failed ? report.error : report.warnings ? report.warning : l->error;
-    mjcf_fail(error, "%s", *why ? why : "not a MuJoCo model");
-    return NULL;
-  }
-  if (mjcf_apply_inertia(l->model, error)) return l->model;
-  mj_deleteModel(l->model);
+  pthread_mutex_lock(&lock);
+  guard_call(&report, is_binary(path) ? load_binary : load_xml, &l); // an error comes back here
+  pthread_mutex_unlock(&lock);
+  fold(l.error);
+  if (!report.failed && l.model) return l.model;
+  const char *why = report.failed ? report.error : report.warnings ? report.warning : l.error;
+  mjcf_fail(error, "%s", *why ? why : "not a MuJoCo model");
+  return NULL;
+}
+
+static mjModel *load_exactly(const char *path, mjVFS *vfs, mjcf_error *error) {
+  mjModel *model = mjcf_call_compiler(path, vfs, error);
+  if (!model || mjcf_apply_inertia(model, error)) return model;
+  mj_deleteModel(model);
   return NULL;
 }
 
@@ -59,8 +72,7 @@ mjModel *mjcf_compile(const char *text, mjcf_error *error) {
     mj_defaultVFS(vfs);
     if (mj_makeEmptyFileVFS(vfs, name, (int)size) == 0) {
       memcpy(vfs->filedata[0], text, size);
-      load l = {.path = name, .vfs = vfs};
-      model = finish(&l, load_xml, error);
+      model = load_exactly(name, vfs, error);
     } else {
       mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
     }
@@ -76,10 +88,7 @@ mjModel *mjcf_load(const char *path, mjcf_error *error) {
   struct stat about;
   if (stat(path, &about) != 0) return mjcf_fail(error, "%s", strerror(errno)), NULL;
   if (!S_ISREG(about.st_mode)) return mjcf_fail(error, "not a file"), NULL;
-  size_t length = strlen(path);
-  bool binary = length >= 4 && strcmp(path + length - 4, ".mjb") == 0;
-  load l = {.path = path};
-  return finish(&l, binary ? load_binary : load_xml, error);
+  return load_exactly(path, NULL, error);
 }
 
 mjModel *mjcf_model(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,

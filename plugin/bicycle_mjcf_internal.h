@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the files of bicycle_mjcf share; not for users.
+// What the files of bicycle_mjcf, and the loader of bicycle_import, share; not for users.
 #ifndef BICYCLE_MJCF_INTERNAL_H
 #define BICYCLE_MJCF_INTERNAL_H
 
 #include "bicycle_mjcf.h"
+
+#include "runner_guard.h"
 
 #include <stdio.h>
 
@@ -54,5 +56,9 @@ void mjcf_put_assets(FILE *out);
 void mjcf_put_scenery(FILE *out);
 void mjcf_put_cameras(FILE *out);
 void mjcf_put_shape(FILE *out, const mjcf_plan *plan, int body);
+
+// Asks MuJoCo's compiler for the model `path`: a file, or where `vfs` is not NULL a name in that.
+// Threads wait for each other. NULL with a text in one line.
+mjModel *mjcf_call_compiler(const char *path, mjVFS *vfs, mjcf_error *error);
 
 #endif

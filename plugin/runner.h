@@ -4,8 +4,9 @@
 // The bicycle is one made by bicycle_mjcf, or any model with the same names of bodies and joints.
 // The start is made consistent with the six rolling constraints by MuJoCo's own kinematics: no
 // analytic equation takes part in a ride, so that a comparison compares two independent engines.
-// One runner serves one thread at a time; runners in different threads are independent, but create
-// them one at a time (the compiler of MuJoCo is not reentrant, mjcb_control is process-global).
+// One runner serves one thread at a time; runners in different threads are independent. Those who
+// create one wait for each other (bicycle_mjcf.h). What is process-global, the callbacks of MuJoCo
+// and its handlers of errors, is set by the first and the same for all.
 #ifndef BICYCLE_RUNNER_H
 #define BICYCLE_RUNNER_H
 
@@ -53,6 +54,10 @@ void runner_free(runner *r);
 // A runner for anybody's model of a bicycle (bicycle_import.h), its wheels made to roll exactly.
 // Its integrator and timestep are those of the file until changed.
 runner *runner_import(const char *path, runner_status *status, mjcf_error *error);
+
+// Puts the runner's control callback and, after it, exact rolling into MuJoCo, as the first runner
+// does: for who steps a model of his own beside runners. Again: no effect. Any thread.
+void runner_install_control(void);
 
 // The compiled model, to be read (Lp tests) or, between rides, changed in integrator, timestep.
 mjModel *runner_model(runner *r);

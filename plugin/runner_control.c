@@ -5,7 +5,7 @@
 #include "rolling.h"
 
 #include <math.h>
-#include <threads.h>
+#include <pthread.h>
 
 // mjcb_control gets a model and its data and nothing else: the runner of a thread is found here.
 static _Thread_local runner *active;
@@ -103,9 +103,12 @@ static void install(void) {
 }
 
 void runner_install_control(void) {
-  static once_flag once = ONCE_FLAG_INIT;
-  call_once(&once, install);
-  if (!roll_is_installed()) install();
+  static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  static bool installed;
+  pthread_mutex_lock(&lock);
+  if (!installed || !roll_is_installed()) install();
+  installed = true;
+  pthread_mutex_unlock(&lock);
 }
 
 runner *runner_activate(runner *r) {

@@ -2,11 +2,11 @@
 #include "runner_guard.h"
 
 #include <mujoco/mujoco.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <threads.h>
 
 typedef struct guard {
   guard_report *report;
@@ -20,7 +20,7 @@ static _Thread_local guard *innermost;
 // Handlers found at the first guarded call; not changed after.
 static void (*previous_error)(const char *);
 static void (*previous_warning)(const char *);
-static once_flag handlers_are_set = ONCE_FLAG_INIT;
+static pthread_once_t handlers_are_set = PTHREAD_ONCE_INIT; // which the thread sanitizer knows
 
 static void keep(char out[GUARD_TEXT_SIZE], const char *text) {
   snprintf(out, GUARD_TEXT_SIZE, "%s", text);
@@ -61,7 +61,7 @@ static void set_handlers(void) {
 }
 
 void guard_call(guard_report *report, void (*function)(void *), void *argument) {
-  call_once(&handlers_are_set, set_handlers);
+  pthread_once(&handlers_are_set, set_handlers);
   memset(report, 0, sizeof *report);
   guard g = {.report = report, .outer = innermost};
   innermost = &g;

@@ -72,9 +72,6 @@ bool runner_find_foreign_map(runner_map *map, const mjModel *model, mjcf_error *
 
 //---------------------------------- the input (runner_control.c) ----------------------------------
 
-// Puts the runner's control callback and, after it, exact rolling into MuJoCo. Again: no effect.
-void runner_install_control(void);
-
 // From here on the control callback of this thread serves this runner (NULL: none). Returns the one
 // it served before.
 runner *runner_activate(runner *r);

@@ -84,6 +84,7 @@ typedef struct engine {
   int option_count;             // <= ENGINE_MAX_OPTIONS
   const char *step_option;      // the one that is the step of integration; NULL: none
   bool plays_file;              // it needs a file, and may have a map of columns
+  bool alone;                   // it changes what is process-global: nothing is played beside it
 
   // An instance for a bicycle. NULL with a problem and its exit code in `code` otherwise.
   void *(*create)(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,

@@ -7,8 +7,10 @@
 #include "suite.h"
 #include "terminal/command.h"
 #include "terminal/json.h"
+#include "terminal/number.h"
 #include "terminal/table.h"
 
+#include <sched.h>
 #include <string.h>
 
 static const char example[] = "Example: bicycle validate\n"
@@ -28,17 +30,36 @@ static const char documentation[] =
 typedef struct arguments {
   const char *output, *baseline;
   bool json, all;
+  int jobs;
   char **scenarios; // of argv
   int count;
 } arguments;
 
-enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE };
+enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE, MOST_JOBS = 256 };
+
+
+// The processors that this process may use: a container or taskset gives fewer than there are.
+static int processors(void) {
+  cpu_set_t set;
+  int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+  return count < MOST_JOBS ? count : MOST_JOBS;
+}
+
+static int jobs_of(const char *text) {
+  long jobs;
+  if (!term_parse_integer(&jobs, text, 1, MOST_JOBS))
+    term_usage("--jobs: '%s' is not a whole number from 1 to %d", text, MOST_JOBS);
+  return (int)jobs;
+}
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
   switch (key) {
   case 'o':
     args->output = text;
+    return 0;
+  case 'j':
+    args->jobs = jobs_of(text);
     return 0;
   case KEY_JSON:
     args->json = true;
@@ -60,6 +81,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "Folder of the report (./bicycle-report)", 1},
+    {"jobs", 'j', "N", 0, "Play N scenarios at a time (default: the processors there are)", 1},
     {"json", KEY_JSON, NULL, 0, "Print report.json instead of the tables", 1},
     {"all", KEY_ALL, NULL, 0, "Show every gate, not only the closest ones", 1},
     {"baseline", KEY_BASELINE, "FILE", 0, "Compare with an earlier report.json", 1},
@@ -118,7 +140,7 @@ static term_exit validate(const arguments *args) {
   if (!provenance_begin(&r.provenance, args->scenarios, args->count))
     return term_fail(TERM_INVALID, "out of memory");
   term_exit code = prepare(&s, &baseline, args, &p);
-  if (code == TERM_DONE) code = suite_play(&s, &p);
+  if (code == TERM_DONE) code = suite_play(&s, args->jobs, &p);
   r.provenance.elapsed = engine_clock() - begun;
   if (code == TERM_DONE) {
     r.comparisons = s.comparisons;
@@ -193,7 +215,7 @@ int main(int argc, char **argv) {
       options,       parse, "[SCENARIO...]\nlist\ncompare A.json B.json\nbless [REPORT]",
       documentation, NULL,  NULL,
       NULL};
-  arguments args = {.output = "bicycle-report"};
+  arguments args = {.output = "bicycle-report", .jobs = processors()};
   term_begin(name);
   argv[0] = name;
   term_parse(&argp, example, argc, argv, &args);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "suite.h"
 
-#include "terminal/progress.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,34 +61,5 @@ term_exit suite_load(suite *out, char *const *given, int given_count, problem *p
   term_exit code = find_all(&paths, &count, given, given_count, p);
   if (code == TERM_DONE) code = read_suite(out, paths, count, p);
   free_paths(paths, count);
-  return code;
-}
-
-// Progress of a suite: scenarios count alike.
-typedef struct bar {
-  term_progress progress;
-  const char *label;
-  size_t done, count;
-} bar;
-
-static void show_progress(double share, void *user) {
-  bar *b = user;
-  term_progress_show(&b->progress, b->label, ((double)b->done + share) / (double)b->count);
-}
-
-term_exit suite_play(suite *s, problem *p) {
-  bar b = {.count = s->count};
-  term_exit code = TERM_DONE;
-  for (; b.done < s->count && code == TERM_DONE; b.done++) {
-    comparison *c = &s->comparisons[b.done];
-    b.label = s->scenarios[b.done].name;
-    show_progress(0, &b);
-    code = comparison_open(c, &s->scenarios[b.done], p);
-    if (code != TERM_DONE) code = problem_prefix(p, code, b.label);
-    c->progress = show_progress;
-    c->user = &b;
-    if (code == TERM_DONE) code = comparison_run(c, p);
-  }
-  term_progress_clear(&b.progress);
   return code;
 }
