@@ -37,7 +37,8 @@ static mjModel *compile(const char *name, const char *text, mjcf_error *error) {
   mj_deleteVFS(vfs);
   free(vfs);
   if (!model)
-    mjcf_fail(error, "with a marker for its wheels: %.400s", *why.text ? why.text : "out of memory");
+    mjcf_fail(error, "with a marker for its wheels: %.400s",
+              *why.text ? why.text : "out of memory");
   return model;
 }
 

@@ -35,7 +35,6 @@ static runner *create(mjModel *model, double rider_offset, find_map_function *fi
     runner_free(r);
     return NULL;
   }
-  runner_install_control();
   *status = RUNNER_OK;
   return r;
 }
@@ -46,18 +45,21 @@ runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
   mjcf_options plain = *options;
   plain.visible = false;
   *status = RUNNER_MODEL;
+  runner_install_control(); // before the compiler, which steps the model once
   mjModel *model = mjcf_model(bicycle, &plain, NULL, error);
   return model ? create(model, options->rider_offset, runner_find_map, status, error) : NULL;
 }
 
 runner *runner_load(const char *path, runner_status *status, mjcf_error *error) {
   *status = RUNNER_MODEL;
+  runner_install_control();
   mjModel *model = mjcf_load(path, error);
   return model ? create(model, 0, runner_find_map, status, error) : NULL;
 }
 
 runner *runner_import(const char *path, runner_status *status, mjcf_error *error) {
   *status = RUNNER_MODEL;
+  runner_install_control();
   mjModel *model = import_load_rolling(path, error);
   return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
 }

@@ -37,7 +37,6 @@ typedef struct arguments {
 
 enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE, MOST_JOBS = 256 };
 
-
 // The processors that this process may use: a container or taskset gives fewer than there are.
 static int processors(void) {
   cpu_set_t set;

@@ -2,9 +2,9 @@
 // Playing a suite on several threads, to the same result as on one.
 //
 // A scenario shares nothing with another but what is process-global in MuJoCo: its compiler, for
-// which threads wait (plugin/bicycle_mjcf.h), and its callbacks and handlers, which the first runner
-// sets for all (plugin/runner.h); they find the ride they serve by thread, model and mjData. What
-// would disturb others, or be disturbed, is played when all else is done: see is_alone.
+// which threads wait (plugin/bicycle_mjcf.h), and its callbacks and handlers, which the first
+// runner sets for all (plugin/runner.h); they find the ride they serve by thread, model and mjData.
+// What would disturb others, or be disturbed, is played when all else is done: see is_alone.
 #include "suite.h"
 
 #include "terminal/progress.h"

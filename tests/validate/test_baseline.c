@@ -9,7 +9,6 @@
 #include <report_read.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 
 static json_t *original; // a report of the test scenario, never changed
 
@@ -152,111 +151,76 @@ static void test_misfits(void **state) {
 
 //---------------------------------- the commands --------------------------------------------------
 
-static char *folder;
-
-// Runs the program in the test's folder; what it says goes to the file "out".
-static int run(const char *arguments) {
-  char *command = NULL;
-  assert_true(asprintf(&command,
-                       "cd %s && " BICYCLE_BINARY_DIR "/bin/bicycle-validate %s >out 2>&1", folder,
-                       arguments) > 0);
-  int status = system(command);
-  free(command);
-  assert_true(WIFEXITED(status));
-  return WEXITSTATUS(status);
-}
-
-static void expect_output(const char *part) {
-  char *path = NULL;
-  assert_true(asprintf(&path, "%s/out", folder) > 0);
-  char *text = support_read(path);
-  if (!strstr(text, part)) fail_msg("no '%s' in '%s'", part, text);
-  free(text);
-  free(path);
-}
-
 static void save(const json_t *document, const char *name) {
   char *text = json_dumps(document, 0);
-  free(support_write(folder, name, text));
+  free(support_write(support_home, name, text));
   free(text);
 }
 
 static void test_bless_and_compare(void **state) {
   (void)state;
-  free(support_write(folder, "test.yml", support_scenario_text));
-  assert_int_equal(run("bless"), 4); // nothing to bless yet
-  assert_int_equal(run("test.yml --baseline none.json"), 4);
-  expect_output("none.json: No such file");
-  assert_int_equal(run("test.yml"), 0);
-  assert_int_equal(run("bless"), 0);
-  assert_int_equal(run("bless bicycle-report -o again.json"), 0);
-  assert_int_equal(run("compare bicycle-baseline.json again.json"), 0);
-  expect_output("0 better");
-  assert_int_equal(run("compare again.json bicycle-report --json"), 0);
-  expect_output("\"change\": \"same\"");
-  assert_int_equal(run("test.yml --baseline again.json"), 0);
-  expect_output("SAME as the baseline");
-  assert_int_equal(run("benchmark_m1 --baseline again.json"), 4);
-  expect_output("no scenario 'benchmark_m1'");
-  assert_int_equal(run("list"), 0); // the report of that run is there all the same
-  assert_int_equal(run("bless bicycle-report -o m1.json"), 0);
+  free(support_write(support_home, "test.yml", support_scenario_text));
+  assert_int_equal(support_validate("bless"), 4); // nothing to bless yet
+  assert_int_equal(support_validate("test.yml --baseline none.json"), 4);
+  support_expect_text("err", "none.json: No such file");
+  assert_int_equal(support_validate("test.yml"), 0);
+  assert_int_equal(support_validate("bless"), 0);
+  assert_int_equal(support_validate("bless bicycle-report -o again.json"), 0);
+  assert_int_equal(support_validate("compare bicycle-baseline.json again.json"), 0);
+  support_expect_text("out", "0 better");
+  assert_int_equal(support_validate("compare again.json bicycle-report --json"), 0);
+  support_expect_text("out", "\"change\": \"same\"");
+  assert_int_equal(support_validate("test.yml --baseline again.json"), 0);
+  support_expect_text("out", "SAME as the baseline");
+  assert_int_equal(support_validate("benchmark_m1 --baseline again.json"), 4);
+  support_expect_text("err", "no scenario 'benchmark_m1'");
+  assert_int_equal(support_validate("list"), 0); // the report of that run is there all the same
+  assert_int_equal(support_validate("bless bicycle-report -o m1.json"), 0);
 }
 
 static void test_worse_fails(void **state) {
   (void)state;
-  free(support_write(folder, "test.yml", support_scenario_text));
-  assert_int_equal(run("test.yml"), 0);
+  free(support_write(support_home, "test.yml", support_scenario_text));
+  assert_int_equal(support_validate("test.yml"), 0);
   char *path = NULL;
-  assert_true(asprintf(&path, "%s/bicycle-report/report.json", folder) > 0);
+  assert_true(asprintf(&path, "%s/bicycle-report/report.json", support_home) > 0);
   json_t *document = json_load_file(path, 0, NULL);
   double value = report_real(gate_of(document, "steer"), "value");
   json_object_set_new(gate_of(document, "steer"), "value", json_real(0.5 * value));
   save(document, "better.json");
-  assert_int_equal(run("compare better.json bicycle-report"), 1);
-  expect_output("WORSE than");
-  assert_int_equal(run("compare bicycle-report better.json"), 0);
-  expect_output("BETTER than");
-  assert_int_equal(run("test.yml --baseline better.json"), 1);
-  expect_output("1 worse");
+  assert_int_equal(support_validate("compare better.json bicycle-report"), 1);
+  support_expect_text("out", "WORSE than");
+  assert_int_equal(support_validate("compare bicycle-report better.json"), 0);
+  support_expect_text("out", "BETTER than");
+  assert_int_equal(support_validate("test.yml --baseline better.json"), 1);
+  support_expect_text("out", "1 worse");
   json_object_set_new(document, "version", json_integer(2));
   save(document, "newer.json");
-  assert_int_equal(run("test.yml --baseline newer.json"), 4);
+  assert_int_equal(support_validate("test.yml --baseline newer.json"), 4);
   json_object_set_new(document, "verdict", json_string("invalid"));
   json_object_set_new(document, "version", json_integer(1));
   save(document, "invalid.json");
-  assert_int_equal(run("bless invalid.json -o no.json"), 3);
+  assert_int_equal(support_validate("bless invalid.json -o no.json"), 3);
   json_decref(document);
   free(path);
 }
 
 static void test_wrong_files(void **state) {
   (void)state;
-  free(support_write(folder, "list.json", "[1, 2]"));
-  free(support_write(folder, "broken.json", "{\"schema\": \n 12,,"));
-  free(support_write(folder, "empty.json", ""));
-  free(support_write(folder, "other.json", "{\"schema\": \"something else\"}"));
-  assert_int_equal(run("compare list.json list.json"), 4);
-  expect_output("list.json: schema");
-  assert_int_equal(run("compare broken.json list.json"), 4);
-  expect_output("broken.json:2:");
-  assert_int_equal(run("bless empty.json"), 4);
-  assert_int_equal(run("bless other.json"), 4);
-  assert_int_equal(run("compare other.json"), 2);
-  assert_int_equal(run("compare a b c"), 2);
-  assert_int_equal(run("bless a b"), 2);
-  assert_int_equal(run("compare --nonsense"), 2);
-}
-
-static int make_folder(void **state) {
-  (void)state;
-  folder = support_folder();
-  return 0;
-}
-
-static int remove_folder(void **state) {
-  (void)state;
-  support_remove(folder);
-  return 0;
+  free(support_write(support_home, "list.json", "[1, 2]"));
+  free(support_write(support_home, "broken.json", "{\"schema\": \n 12,,"));
+  free(support_write(support_home, "empty.json", ""));
+  free(support_write(support_home, "other.json", "{\"schema\": \"something else\"}"));
+  assert_int_equal(support_validate("compare list.json list.json"), 4);
+  support_expect_text("err", "list.json: schema");
+  assert_int_equal(support_validate("compare broken.json list.json"), 4);
+  support_expect_text("err", "broken.json:2:");
+  assert_int_equal(support_validate("bless empty.json"), 4);
+  assert_int_equal(support_validate("bless other.json"), 4);
+  assert_int_equal(support_validate("compare other.json"), 2);
+  assert_int_equal(support_validate("compare a b c"), 2);
+  assert_int_equal(support_validate("bless a b"), 2);
+  assert_int_equal(support_validate("compare --nonsense"), 2);
 }
 
 static int play(void **state) {
@@ -283,9 +247,9 @@ int main(void) {
       cmocka_unit_test(test_gates_that_come_and_go),
       cmocka_unit_test(test_timings_never_count),
       cmocka_unit_test(test_misfits),
-      cmocka_unit_test_setup_teardown(test_bless_and_compare, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_worse_fails, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_wrong_files, make_folder, remove_folder),
+      cmocka_unit_test_setup_teardown(test_bless_and_compare, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_worse_fails, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_wrong_files, support_enter, support_leave),
   };
   return cmocka_run_group_tests(tests, play, forget);
 }

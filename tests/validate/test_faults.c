@@ -203,32 +203,10 @@ static void test_lost_energy_is_L3(void **state) {
   support_close(f);
 }
 
-static void steal(const mjModel *m, mjData *d) {
-  (void)m;
-  (void)d;
-}
-
-// Takes the callback away when half of the ride is over.
-static bool steal_half_way(double share, void *user) {
-  (void)user;
-  if (share > 0.5) mjcb_control = steal;
-  return true;
-}
-
-static term_exit ride_and_be_robbed(trace *out, void *instance, const engine_ride *asked,
-                                    problem *p) {
-  engine_ride watched = *asked;
-  mjfGeneric ours = mjcb_control;
-  watched.progress = steal_half_way;
-  term_exit code = engine_mujoco.ride(out, instance, &watched, p);
-  mjcb_control = ours;
-  return code;
-}
-
 static void test_stolen_callback_is_invalid(void **state) {
   (void)state;
   engine wrong = engine_mujoco;
-  wrong.ride = ride_and_be_robbed;
+  wrong.ride = support_robbed_ride;
   support_run *f = support_open(&wrong, support_scenario_text);
   comparison *c = support_play(f);
   assert_int_equal(c->verdict, VERDICT_INVALID);

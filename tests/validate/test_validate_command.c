@@ -9,58 +9,26 @@
 
 #include <jansson.h>
 
-static char *folder;
-
-// Runs the program in the test's folder; stdout and stderr go to the files "out" and "err".
-static int run(const char *arguments) {
-  char *command = NULL;
-  assert_true(asprintf(&command,
-                       "cd %s && " BICYCLE_BINARY_DIR "/bin/bicycle-validate %s >out 2>err", folder,
-                       arguments) > 0);
-  int status = system(command);
-  free(command);
-  assert_true(WIFEXITED(status));
-  return WEXITSTATUS(status);
-}
-
-static char *output(const char *name) {
-  char *path = NULL;
-  assert_true(asprintf(&path, "%s/%s", folder, name) > 0);
-  char *text = support_read(path);
-  free(path);
-  return text;
-}
-
-static void expect_text(const char *name, const char *part) {
-  char *text = output(name);
-  if (!text || !strstr(text, part)) fail_msg("no '%s' in '%s'", part, text ? text : "nothing");
-  free(text);
-}
-
 static void write_scenario(const char *name, const char *from, const char *to) {
-  char *text = NULL;
-  const char *at = from ? strstr(support_scenario_text, from) : support_scenario_text;
-  assert_non_null(at);
-  assert_true(asprintf(&text, "%.*s%s%s", (int)(at - support_scenario_text), support_scenario_text,
-                       to, at + (from ? strlen(from) : 0)) > 0);
-  free(support_write(folder, name, text));
+  char *text = support_replace(support_scenario_text, from, to);
+  free(support_write(support_home, name, text));
   free(text);
 }
 
 // What the whole project is for.
 static void test_shipped_scenarios_agree(void **state) {
   (void)state;
-  int code = run("");
+  int code = support_validate("");
   if (code != 0) {
-    char *text = output("out");
+    char *text = support_output("out");
     print_error("%s\n", text);
     free(text);
   }
   assert_int_equal(code, 0);
-  expect_text("out", "AGREE");
-  expect_text("bicycle-report/report.json", "\"verdict\": \"agree\"");
-  expect_text("bicycle-report/benchmark_m1-residuals.csv", "time,x,y");
-  char *errors = output("err");
+  support_expect_text("out", "AGREE");
+  support_expect_text("bicycle-report/report.json", "\"verdict\": \"agree\"");
+  support_expect_text("bicycle-report/benchmark_m1-residuals.csv", "time,x,y");
+  char *errors = support_output("err");
   assert_string_equal(errors, ""); // no progress but on a terminal
   free(errors);
 }
@@ -68,19 +36,19 @@ static void test_shipped_scenarios_agree(void **state) {
 static void test_failure_is_1(void **state) {
   (void)state;
   write_scenario("strict.yml", "limit: 1e-11", "limit: 1e-22");
-  assert_int_equal(run("strict.yml"), 1);
-  expect_text("out", "FAIL");
-  expect_text("out", "L2 traces");
+  assert_int_equal(support_validate("strict.yml"), 1);
+  support_expect_text("out", "FAIL");
+  support_expect_text("out", "L2 traces");
 }
 
 static void test_invalid_run_is_3(void **state) {
   (void)state;
   // MuJoCo calls velocities above 1e10 unstable, warns, and resets its state.
   write_scenario("wild.yml", "speed: 4.6, lean_rate: 0.5", "speed: 1e11");
-  assert_int_equal(run("wild.yml"), 3);
-  expect_text("out", "INVALID");
-  expect_text("out", "MuJoCo raised a warning");
-  expect_text("bicycle-report/report.json", "\"verdict\": \"invalid\"");
+  assert_int_equal(support_validate("wild.yml"), 3);
+  support_expect_text("out", "INVALID");
+  support_expect_text("out", "MuJoCo raised a warning");
+  support_expect_text("bicycle-report/report.json", "\"verdict\": \"invalid\"");
 }
 
 static void test_usage_is_2(void **state) {
@@ -94,6 +62,8 @@ static void test_usage_is_2(void **state) {
       {"/", "the name of a scenario"},
       {"--limits", "unrecognized option"},
       {"-o", "requires an argument"},
+      {"--jobs 0", "not a whole number from 1"},
+      {"-j many", "not a whole number from 1"},
       {"-o /dev/null roadster_straight", "not a folder"},
       {"-o none/report roadster_straight", "none: No such file"},
       {"-o . roadster_straight", "is not a report"},
@@ -102,12 +72,12 @@ static void test_usage_is_2(void **state) {
       {"''", "the name of a scenario"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    assert_int_equal(run(cases[i].arguments), 2);
-    expect_text("err", cases[i].message);
-    char *errors = output("err");
+    assert_int_equal(support_validate(cases[i].arguments), 2);
+    support_expect_text("err", cases[i].message);
+    char *errors = support_output("err");
     assert_ptr_equal(strchr(errors, '\n'), errors + strlen(errors) - 1); // one line
     free(errors);
-    char *printed = output("out");
+    char *printed = support_output("out");
     assert_string_equal(printed, "");
     free(printed);
   }
@@ -121,13 +91,13 @@ static void test_no_verdict_without_report(void **state) {
   assert_true(asprintf(&command,
                        "cd %s && trap '' XFSZ && ulimit -f 8 && " BICYCLE_BINARY_DIR
                        "/bin/bicycle-validate good.yml -o lost >out 2>err",
-                       folder) > 0);
+                       support_home) > 0);
   int status = system(command);
   free(command);
   assert_true(WIFEXITED(status));
   assert_int_equal(WEXITSTATUS(status), 2);
-  expect_text("err", "File too large");
-  char *printed = output("out");
+  support_expect_text("err", "File too large");
+  char *printed = support_output("out");
   assert_string_equal(printed, "");
   free(printed);
 }
@@ -135,8 +105,8 @@ static void test_no_verdict_without_report(void **state) {
 static void test_json(void **state) {
   (void)state;
   write_scenario("short.yml", NULL, "");
-  assert_int_equal(run("--json short.yml"), 0);
-  char *text = output("out"), *written = output("bicycle-report/report.json");
+  assert_int_equal(support_validate("--json short.yml"), 0);
+  char *text = support_output("out"), *written = support_output("bicycle-report/report.json");
   json_t *document = json_loads(text, 0, NULL);
   assert_non_null(document);
   assert_string_equal(text, written);
@@ -147,37 +117,25 @@ static void test_json(void **state) {
 
 static void test_help_and_list(void **state) {
   (void)state;
-  assert_int_equal(run("--help"), 0);
-  char *text = output("out");
+  assert_int_equal(support_validate("--help"), 0);
+  char *text = support_output("out");
   assert_ptr_equal(strstr(text, "Example: "), text);
   free(text);
-  assert_int_equal(run("list"), 0);
-  expect_text("out", "penny_farthing");
-  assert_int_equal(run("list --json"), 0);
-  expect_text("out", "\"bicycle\": \"recumbent\"");
-}
-
-static int make_folder(void **state) {
-  (void)state;
-  folder = support_folder();
-  return 0;
-}
-
-static int remove_folder(void **state) {
-  (void)state;
-  support_remove(folder);
-  return 0;
+  assert_int_equal(support_validate("list"), 0);
+  support_expect_text("out", "penny_farthing");
+  assert_int_equal(support_validate("list --json"), 0);
+  support_expect_text("out", "\"bicycle\": \"recumbent\"");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(test_shipped_scenarios_agree, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_failure_is_1, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_invalid_run_is_3, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_usage_is_2, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_no_verdict_without_report, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_json, make_folder, remove_folder),
-      cmocka_unit_test_setup_teardown(test_help_and_list, make_folder, remove_folder),
+      cmocka_unit_test_setup_teardown(test_shipped_scenarios_agree, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_failure_is_1, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_invalid_run_is_3, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_usage_is_2, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_no_verdict_without_report, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_json, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_help_and_list, support_enter, support_leave),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

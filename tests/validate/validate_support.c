@@ -6,9 +6,11 @@
 #include <layer.h>
 
 #include <ftw.h>
+#include <mujoco/mujoco.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 const char support_scenario_text[] =
@@ -69,6 +71,55 @@ char *support_read(const char *path) {
   return text;
 }
 
+char *support_replace(const char *text, const char *from, const char *to) {
+  char *copy = NULL;
+  const char *at = from ? strstr(text, from) : text;
+  assert_non_null(at);
+  assert_true(asprintf(&copy, "%.*s%s%s", (int)(at - text), text, to ? to : "",
+                       at + (from ? strlen(from) : 0)) >= 0);
+  return copy;
+}
+
+char *support_home;
+
+int support_enter(void **state) {
+  (void)state;
+  support_home = support_folder();
+  return 0;
+}
+
+int support_leave(void **state) {
+  (void)state;
+  support_remove(support_home);
+  support_home = NULL;
+  return 0;
+}
+
+int support_validate(const char *arguments) {
+  char *command = NULL;
+  assert_true(asprintf(&command,
+                       "cd %s && " BICYCLE_BINARY_DIR "/bin/bicycle-validate %s >out 2>err",
+                       support_home, arguments) > 0);
+  int status = system(command);
+  free(command);
+  assert_true(WIFEXITED(status));
+  return WEXITSTATUS(status);
+}
+
+char *support_output(const char *name) {
+  char *path = NULL;
+  assert_true(asprintf(&path, "%s/%s", support_home, name) > 0);
+  char *text = support_read(path);
+  free(path);
+  return text;
+}
+
+void support_expect_text(const char *name, const char *part) {
+  char *text = support_output(name);
+  if (!text || !strstr(text, part)) fail_msg("no '%s' in '%s'", part, text ? text : "nothing");
+  free(text);
+}
+
 void support_read_scenario(scenario *out, const char *folder, const char *text) {
   problem p = {""};
   char *path = support_write(folder, "test.yml", text);
@@ -120,4 +171,25 @@ void support_expect_failure(const comparison *c, const char *layer_name, const c
   assert_non_null(c->first_failure);
   assert_string_equal(c->first_failure->name, layer_name);
   if (!strstr(c->cause, named)) fail_msg("'%s' does not name %s", c->cause, named);
+}
+
+static void steal(const mjModel *m, mjData *d) {
+  (void)m;
+  (void)d;
+}
+
+// Takes the callback away when half of the ride is over.
+static bool steal_half_way(double share, void *user) {
+  (void)user;
+  if (share > 0.5) mjcb_control = steal;
+  return true;
+}
+
+term_exit support_robbed_ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
+  engine_ride watched = *asked;
+  mjfGeneric ours = mjcb_control;
+  watched.progress = steal_half_way;
+  term_exit code = engine_mujoco.ride(out, instance, &watched, p);
+  mjcb_control = ours;
+  return code;
 }

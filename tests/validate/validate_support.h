@@ -15,6 +15,25 @@ char *support_write(const char *folder, const char *name, const char *text);
 // The whole file, allocated; NULL if there is none.
 char *support_read(const char *path);
 
+// A copy of `text` with its first `from` replaced, which must be there; allocated. Without `from` a
+// plain copy.
+char *support_replace(const char *text, const char *from, const char *to);
+
+// A folder for each test of a group: a fixture, and where it is meanwhile.
+extern char *support_home;
+int support_enter(void **state);
+int support_leave(void **state);
+
+// Runs bicycle-validate there; stdout and stderr go to the files "out" and "err". Returns its exit
+// status; the test fails if a signal ended it.
+int support_validate(const char *arguments);
+
+// The file of that name there; NULL if there is none. Allocated.
+char *support_output(const char *name);
+
+// That it holds a text.
+void support_expect_text(const char *name, const char *part);
+
 // A scenario of half a second that agrees in all layers, and its text.
 extern const char support_scenario_text[];
 void support_read_scenario(scenario *out, const char *folder, const char *text);
@@ -38,5 +57,8 @@ comparison *support_play(support_run *run);
 
 // The comparison failed, that layer first, and the cause holds that text.
 void support_expect_failure(const comparison *c, const char *layer_name, const char *named);
+
+// A ride of engine_mujoco whose mjcb_control is taken away half way, and put back at the end.
+term_exit support_robbed_ride(trace *out, void *instance, const engine_ride *asked, problem *p);
 
 #endif
