@@ -122,7 +122,8 @@ typedef struct engine {
   term_exit (*ride)(trace *out, void *instance, const engine_ride *ride, problem *p);
 } engine;
 
-extern const engine engine_analytic, engine_mujoco, engine_linear, engine_file;
+extern const engine engine_analytic, engine_mujoco, engine_linear, engine_file, engine_disc,
+    engine_mujoco_disc;
 
 // All engines by number; NULL beyond the last.
 const engine *engine_at(int index);

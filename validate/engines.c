@@ -5,7 +5,7 @@
 #include <time.h>
 
 static const engine *const engines[] = {&engine_analytic, &engine_mujoco, &engine_linear,
-                                        &engine_file};
+                                        &engine_file,     &engine_disc,   &engine_mujoco_disc};
 
 enum { ENGINE_COUNT = sizeof engines / sizeof engines[0] };
 

@@ -136,10 +136,12 @@ static void compare_signal(comparison *c, residual *r, const trace_signal *signa
   tell_of_rest(c, r, signal->name, signal->unit, all);
 }
 
-// All components of both forces.
-static bool has_forces(const comparison_side *side) {
+// All components of the force on a wheel.
+static bool has_force(const comparison_side *side, int wheel) {
+  size_t length = strlen(forces[wheel]);
   for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
-    if (strstr(trace_signals[i].name, "_force_") && !trace_has(&side->trace, &trace_signals[i]))
+    if (strncmp(trace_signals[i].name, forces[wheel], length) == 0 &&
+        !trace_has(&side->trace, &trace_signals[i]))
       return false;
   return true;
 }
@@ -228,8 +230,9 @@ static term_exit measure(comparison *c, problem *p) {
     compare_ends(c);
     for (size_t k = 0; k < count; k++) r.time[k] = c->side[REFERENCE].trace.rows[k].sample.time;
     for (int i = 0; compared[i]; i++) compare_signal(c, &r, trace_find_signal(compared[i]));
-    bool both = has_forces(&c->side[REFERENCE]) && has_forces(&c->side[CANDIDATE]);
-    for (int i = 0; both && forces[i]; i++) compare_force(c, &r, i);
+    for (int i = 0; forces[i]; i++)
+      if (has_force(&c->side[REFERENCE], i) && has_force(&c->side[CANDIDATE], i))
+        compare_force(c, &r, i);
     study_shift steer;
     compare_shape(c, &r, "steer", "steer_rate", &steer);
     compare_shape(c, &r, "lean", "lean_rate", &c->study.shift);

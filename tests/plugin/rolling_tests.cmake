@@ -3,12 +3,17 @@ set(rolling_folder ${PROJECT_SOURCE_DIR}/plugin/examples)
 set(rolling_examples ROLL_EXAMPLES=${rolling_folder})
 set(rolling_models ${rolling_examples} ROLL_MODELS=${CMAKE_CURRENT_LIST_DIR}/rolling_models)
 
-foreach(name test_rolling test_rolling_bicycle test_rolling_balance test_rolling_drive
+foreach(name test_rolling_bicycle test_rolling_balance test_rolling_drive
     test_rolling_faults test_rolling_ground test_rolling_host test_rolling_sensor
     test_rolling_skate)
   bike_test(NAME ${name} SOURCES ${name}.c LIBS mujoco_rolling_static
     ENVIRONMENT ${rolling_models})
 endforeach()
+
+# The reduced disc is the comparator's.
+bike_test(NAME test_rolling SOURCES test_rolling.c ${PROJECT_SOURCE_DIR}/validate/disc.c
+  LIBS mujoco_rolling_static ENVIRONMENT ${rolling_models})
+target_include_directories(test_rolling PRIVATE ${PROJECT_SOURCE_DIR}/validate)
 
 bike_test(NAME test_rolling_rider SOURCES test_rolling_rider.c
   LIBS mujoco_rolling_static bicycle::bicycle ENVIRONMENT ${rolling_models})

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // One rolling disc against closed forms and against the same disc in its own five speeds.
-#include "rolling_reduced_disc.h"
 #include "rolling_support.h"
+
+#include <disc.h>
 
 static const disc_body thin_disc = {2, 0.3, 0.045, 0.09, 9.81}; // of disc.xml and disc_free.xml
 
 // A generic motion: rolling at about 1 m/s, leaning, turning and nodding.
-static const double generic[DISC_STATES] = {
-    [YAW] = 0.4, [LEAN] = 0.3, [SPIN] = 0, [W1] = 0.5, [W2] = 4, [W3] = -2};
+static const double generic[DISC_STATES] = {[DISC_YAW] = 0.4, [DISC_LEAN] = 0.3, [DISC_SPIN] = 0,
+                                            [DISC_W1] = 0.5,  [DISC_W2] = 4,     [DISC_W3] = -2};
 
 // Puts a state of the reduced model into disc.xml (qpos: x, y, z - R, yaw, roll, spin).
 static void put_hinges(mjData *d, const double s[DISC_STATES], disc_body b) {
   double f[DISC_STATES];
-  disc_rates(f, s, b);
-  double qpos[6] = {s[HUB_X], s[HUB_Y], b.radius * (cos(s[LEAN]) - 1), s[YAW], s[LEAN], s[SPIN]};
-  double qvel[6] = {f[HUB_X], f[HUB_Y], -b.radius * sin(s[LEAN]) * f[LEAN],
-                    f[YAW],   f[LEAN],  f[SPIN]};
+  disc_rates(f, s, &b);
+  double qpos[6] = {s[DISC_X],   s[DISC_Y],    b.radius * (cos(s[DISC_LEAN]) - 1),
+                    s[DISC_YAW], s[DISC_LEAN], s[DISC_SPIN]};
+  double qvel[6] = {f[DISC_X],   f[DISC_Y],    -b.radius * sin(s[DISC_LEAN]) * f[DISC_LEAN],
+                    f[DISC_YAW], f[DISC_LEAN], f[DISC_SPIN]};
   mju_copy(d->qpos, qpos, 6);
   mju_copy(d->qvel, qvel, 6);
 }
@@ -23,9 +25,9 @@ static void put_hinges(mjData *d, const double s[DISC_STATES], disc_body b) {
 // The same into disc_free.xml: rotation Rz(yaw) Rx(lean) Ry(spin), angular velocity in the body.
 static void put_free(mjData *d, const double s[DISC_STATES], disc_body b) {
   double f[DISC_STATES];
-  disc_rates(f, s, b);
+  disc_rates(f, s, &b);
   const mjtNum axis[3][3] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
-  const int angle[3] = {YAW, LEAN, SPIN};
+  const int angle[3] = {DISC_YAW, DISC_LEAN, DISC_SPIN};
   mjtNum quat[4] = {1, 0, 0, 0}, turn[4], product[4], back[4];
   for (int i = 0; i < 3; i++) {
     mju_axisAngle2Quat(turn, axis[i], s[angle[i]]);
@@ -33,10 +35,10 @@ static void put_free(mjData *d, const double s[DISC_STATES], disc_body b) {
     mju_copy4(quat, product);
   }
   // w = w1 e1 + w2 e2 + w3 e3 in the leaning frame, seen from the spinning body: Ry(-spin)
-  const mjtNum w[3] = {s[W1], s[W2], s[W3]};
-  mju_axisAngle2Quat(back, axis[2], -s[SPIN]);
-  const mjtNum place[3] = {s[HUB_X], s[HUB_Y], b.radius * cos(s[LEAN])};
-  const mjtNum velocity[3] = {f[HUB_X], f[HUB_Y], -b.radius * sin(s[LEAN]) * f[LEAN]};
+  const mjtNum w[3] = {s[DISC_W1], s[DISC_W2], s[DISC_W3]};
+  mju_axisAngle2Quat(back, axis[2], -s[DISC_SPIN]);
+  const mjtNum place[3] = {s[DISC_X], s[DISC_Y], b.radius * cos(s[DISC_LEAN])};
+  const mjtNum velocity[3] = {f[DISC_X], f[DISC_Y], -b.radius * sin(s[DISC_LEAN]) * f[DISC_LEAN]};
   mju_copy3(d->qpos, place);
   mju_copy4(d->qpos + 3, quat);
   mju_copy3(d->qvel, velocity);
@@ -57,7 +59,7 @@ static double error_after(const char *model, putter *put, double time, double ti
   double s[DISC_STATES];
   mju_copy(s, generic, DISC_STATES);
   int fine = (int)lround(time / 2.5e-4);
-  for (int i = 0; i < fine; i++) disc_advance(s, thin_disc, time / fine);
+  for (int i = 0; i < fine; i++) disc_advance(s, &thin_disc, time / fine);
   put(exact, s, thin_disc);
 
   double error = 0;
@@ -113,18 +115,19 @@ static void test_invariants(void **unused) {
 static void test_steady_precession(void **unused) {
   (void)unused;
   disc_body b = thin_disc;
-  double mR2 = b.mass * b.radius * b.radius, s[DISC_STATES] = {[LEAN] = 0.35, [W3] = -3};
-  s[W2] =
-      (b.diametral * s[W3] * s[W3] * tan(s[LEAN]) - b.mass * b.gravity * b.radius * sin(s[LEAN])) /
-      ((b.axial + mR2) * s[W3]);
-  double yaw_rate = s[W3] / cos(s[LEAN]), circle = b.radius * s[W2] / yaw_rate, time = 10;
+  double mR2 = b.mass * b.radius * b.radius, s[DISC_STATES] = {[DISC_LEAN] = 0.35, [DISC_W3] = -3};
+  s[DISC_W2] = (b.diametral * s[DISC_W3] * s[DISC_W3] * tan(s[DISC_LEAN]) -
+                b.mass * b.gravity * b.radius * sin(s[DISC_LEAN])) /
+               ((b.axial + mR2) * s[DISC_W3]);
+  double yaw_rate = s[DISC_W3] / cos(s[DISC_LEAN]), circle = b.radius * s[DISC_W2] / yaw_rate,
+         time = 10;
 
   mjModel *m = load("disc.xml");
   mjData *d = mj_makeData(m);
   put_hinges(d, s, b);
   m->opt.timestep = 5e-4; // truncation over five turns: 3e-10, and sixteen times that at 1 ms
   for (int i = 0; i < 20000; i++) mj_step(m, d);
-  assert_near(d->qpos[4], s[LEAN], 1e-9);
+  assert_near(d->qpos[4], s[DISC_LEAN], 1e-9);
   assert_near(d->qpos[3], yaw_rate * time, 1e-9);
   assert_near(d->qpos[0], circle * sin(yaw_rate * time), 1e-9);
   assert_near(d->qpos[1], circle * (1 - cos(yaw_rate * time)), 1e-9);
@@ -136,7 +139,8 @@ static void test_steady_precession(void **unused) {
 static double lean_acceleration(const mjModel *m, mjData *d, disc_body b, double speed) {
   const double lean = 1e-4;
   double spin = speed / b.radius;
-  double s[DISC_STATES] = {[LEAN] = lean, [W2] = spin, [W3] = -b.axial / b.diametral * spin * lean};
+  double s[DISC_STATES] = {
+      [DISC_LEAN] = lean, [DISC_W2] = spin, [DISC_W3] = -b.axial / b.diametral * spin * lean};
   put_hinges(d, s, b);
   mj_forward(m, d);
   return d->qacc[4] / lean;
