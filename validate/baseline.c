@@ -120,7 +120,7 @@ static json_t *gate_like(const json_t *entry, const report_gate *g) {
   json_array_foreach(json_object_get(entry, "gates"), i, other) {
     report_gate o = report_gate_at(entry, i);
     if (strcmp(o.layer, g->layer) == 0 && strcmp(o.signal, g->signal) == 0 &&
-        strcmp(o.metric, g->metric) == 0)
+        strcmp(o.metric, g->metric) == 0 && o.from == g->from && o.to == g->to)
       return other;
   }
   return NULL;
@@ -159,7 +159,7 @@ static json_t *gone_gates(const json_t *entry, const json_t *before) {
   for (size_t i = 0; i < report_count(before, "gates"); i++) {
     report_gate g = report_gate_at(before, i);
     if (!gate_like(entry, &g))
-      json_array_append_new(gone, json_sprintf("%s %s %s", g.layer, g.signal, g.metric));
+      json_array_append_new(gone, json_sprintf("%s %s %s", g.layer, g.signal, g.metric_words));
   }
   return gone;
 }

@@ -21,7 +21,7 @@ static void add_rows(term_table *table, const json_t *document, const char *chan
       if (strcmp(g.change, change) != 0) continue;
       term_table_add(table, style,
                      (const char *const[]){change, report_text(entry, "name"), g.layer, g.signal,
-                                           g.metric, report_number(before, g.before),
+                                           g.metric_words, report_number(before, g.before),
                                            report_quantity(now, g.value, g.unit),
                                            report_number(floor, report_real(block, "floor")),
                                            report_text(block, "floor_source")});

@@ -57,8 +57,9 @@ static void list_others(comparison *c, const gate *worst) {
 
 static void say_limit(comparison *c, const gate *worst) {
   const measurement *m = &worst->what;
-  say(c, "%s %.3g%s%s, limit %.3g", m->metric, m->value, *m->unit ? " " : "", m->unit,
-      worst->rule->limit);
+  char metric[MEASUREMENT_METRIC];
+  say(c, "%s %.3g%s%s, limit %.3g", measurement_metric(metric, m->metric, m->from, m->to), m->value,
+      *m->unit ? " " : "", m->unit, worst->rule->limit);
   if (isfinite(m->time)) say(c, ", at %g s", m->time);
 }
 

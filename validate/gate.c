@@ -7,22 +7,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool rule_names(const gate_rule *rule, const char *signal) {
+static bool names_signal(const gate_rule *rule, const char *signal) {
   for (int i = 0; i < rule->signal_count; i++)
     if (strcmp(rule->signals[i], signal) == 0) return true;
   return rule->signal_count == 0;
 }
 
-static bool fits(const gate_rule *rule, const measurement *m) {
+bool gate_rule_names(const gate_rule *rule, const measurement *m) {
   return strcmp(rule->layer->name, m->layer) == 0 && strcmp(rule->metric, m->metric) == 0 &&
-         rule_names(rule, m->signal);
+         names_signal(rule, m->signal);
+}
+
+// Another part of the ride is another measurement.
+static bool fits(const gate_rule *rule, const measurement *m) {
+  return gate_rule_names(rule, m) && rule->from == m->from && rule->to == m->to;
 }
 
 // The rules of a layer name no layer: they are its own.
 static const gate_rule *own_rule(const measurement *m) {
   const layer *l = layer_find(m->layer);
   for (int i = 0; l && i < l->rule_count; i++)
-    if (strcmp(l->rules[i].metric, m->metric) == 0 && rule_names(&l->rules[i], m->signal))
+    if (strcmp(l->rules[i].metric, m->metric) == 0 && names_signal(&l->rules[i], m->signal))
       return &l->rules[i];
   return NULL;
 }
@@ -55,6 +60,8 @@ static bool add_missing(gate_list *out, const measurement_list *list, const gate
     const char *signal = rule->signal_count ? rule->signals[i] : NULL;
     if (was_measured(list, rule, signal)) continue;
     measurement m = measurement_of(rule->layer->name, signal ? signal : "any", rule->metric, "");
+    m.from = rule->from;
+    m.to = rule->to;
     measurement_detail(&m, "no engine of this scenario measures it");
     if (!add(out, &m, rule)) return false;
   }

@@ -22,6 +22,10 @@ typedef struct gate_list {
 // memory; clear the list in any case.
 bool gates_judge(gate_list *out, const measurement_list *measurements, const gate_rules *rules,
                  int measured_layers);
+
+// Whether a rule is about that layer, metric and signal, in whatever part of the ride.
+bool gate_rule_names(const gate_rule *rule, const measurement *m);
+
 // The rule of a measurement, by which it is judged or said to be information: the last fitting one
 // of the scenario, else its layer's own; NULL: it is not judged.
 const gate_rule *gate_rule_for(const measurement *m, const gate_rules *rules);

@@ -27,34 +27,47 @@ static size_t common_rows(const comparison *c, const trace *twin) {
   return rows < twin->count ? rows : twin->count;
 }
 
-// The time of the last row before the twin's signal is off by more than `allowance`.
+// The time of the last row before the twin's signal, within the part of the ride that a rule is
+// about, is off by more than `allowance`.
 static double time_within(const comparison *c, const trace *twin, const trace_signal *signal,
-                          double allowance) {
+                          const gate_rule *rule, double allowance) {
   const trace *reference = &c->side[REFERENCE].trace;
   double time = 0;
   for (size_t k = 0; k < common_rows(c, twin); k++) {
+    double now = reference->rows[k].sample.time;
     double off = trace_value(&twin->rows[k], signal) - trace_value(&reference->rows[k], signal);
-    if (!(fabs(off) <= allowance)) return time;
-    time = reference->rows[k].sample.time;
+    bool judged = now >= rule->from && (rule->to == 0 || now <= rule->to);
+    if (judged && !(fabs(off) <= allowance)) return time;
+    time = now;
   }
   // Events may differ by as little as the rides do, which is within the last row.
   return reference->complete ? c->scenario->duration : time;
 }
 
-// Over all signals with a limit on their largest error; false without any.
+static void find_time_of(study_horizon *h, const comparison *c, const trace *twin,
+                         const trace_signal *signal, const gate_rule *rule) {
+  double time = time_within(c, twin, signal, rule, c->scenario->horizon.share * rule->limit);
+  if (time >= h->time) return;
+  h->time = time;
+  if (time < c->scenario->duration) snprintf(h->signal, sizeof h->signal, "%s", signal->name);
+}
+
+// Over all rules that limit the largest error of a signal; false without any.
 static bool find_time(study_horizon *h, const comparison *c, const trace *twin) {
+  const gate_rules *rules = &c->scenario->rules;
   bool limited = false;
   h->time = INFINITY;
   for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
     const trace_signal *signal = &trace_signals[i];
     measurement m = measurement_of("L2", signal->name, "max", signal->unit);
-    const gate_rule *rule = gate_rule_for(&m, &c->scenario->rules);
-    if (!rule || rule->information || !trace_has(twin, signal)) continue;
-    double time = time_within(c, twin, signal, c->scenario->horizon.share * rule->limit);
-    limited = true;
-    if (time >= h->time) continue;
-    h->time = time;
-    if (time < c->scenario->duration) snprintf(h->signal, sizeof h->signal, "%s", signal->name);
+    for (size_t k = 0; k < rules->count && trace_has(twin, signal); k++) {
+      const gate_rule *rule = &rules->items[k];
+      m.from = rule->from;
+      m.to = rule->to;
+      if (rule->information || gate_rule_for(&m, rules) != rule) continue;
+      limited = true;
+      find_time_of(h, c, twin, signal, rule);
+    }
   }
   return limited;
 }

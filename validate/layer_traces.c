@@ -14,8 +14,6 @@ static const char *const compared[] = {"lean",  "steer",      "lean_rate",   "st
                                        "speed", "yaw",        "x",           "y",
                                        "pitch", "rear_angle", "front_angle", NULL};
 static const char *const forces[] = {"rear_force", "front_force", NULL};
-static const char *const metrics[] = {"max", "scaled_max", "rmse", "nrmse", "end", "tube", NULL};
-
 // Times and differences (candidate - reference) of one signal.
 typedef struct residual {
   double *time, *error;
@@ -23,23 +21,14 @@ typedef struct residual {
   size_t first; // row of the trace at which they begin
 } residual;
 
-static const gate_rule *rule_of(const comparison *c, const char *signal, const char *metric) {
-  measurement m = measurement_of(layer_traces.name, signal, metric, "");
-  return gate_rule_for(&m, &c->scenario->rules);
-}
-
-// What of a residual lies within the window of the metric's rule. Rows are at k sample, which is
-// not to the last digit what people write: a millionth of a row is no difference.
-static residual windowed(const comparison *c, const residual *r, const char *signal,
-                         const char *metric) {
+// Rows are at k sample, which is not to the last digit what people write: a millionth of a row is
+// no difference.
+static residual part_of(const comparison *c, const residual *r, double from, double to) {
   residual part = *r;
-  const gate_rule *rule = rule_of(c, signal, metric);
-  if (!rule) return part;
   double slack = 1e-6 * c->scenario->sample;
-  for (; part.count > 0 && *part.time < rule->from - slack; part.count--)
+  for (; part.count > 0 && *part.time < from - slack; part.count--)
     part.time++, part.error++, part.first++;
-  while (rule->to > 0 && part.count > 0 && part.time[part.count - 1] > rule->to + slack)
-    part.count--;
+  while (to > 0 && part.count > 0 && part.time[part.count - 1] > to + slack) part.count--;
   return part;
 }
 
@@ -51,89 +40,148 @@ static void add(comparison *c, const char *signal, const char *metric, const cha
   measurement_add(&c->measurements, &m);
 }
 
-// The same of a part of the ride, which without a row is no success.
-static void add_part(comparison *c, const residual *part, const char *signal, const char *metric,
-                     const char *unit, metrics_peak peak) {
-  measurement m = measurement_of(layer_traces.name, signal, metric, unit);
-  m.value = part->count ? peak.value : NAN;
-  m.time = part->count ? peak.time : NAN;
-  const gate_rule *rule = rule_of(c, signal, metric);
-  if (!part->count && rule && (rule->from > 0 || rule->to > 0))
-    measurement_detail(&m, "no comparable row from %g s on within the window", rule->from);
-  measurement_add(&c->measurements, &m);
+//---------------------------------- metrics -------------------------------------------------------
+
+// Of a part of the ride with a row at least. `signal` is NULL of a force, `rule` where none asks.
+typedef metrics_peak metric_function(comparison *c, const residual *part,
+                                     const trace_signal *signal, const gate_rule *rule);
+
+static metrics_peak find_max(comparison *c, const residual *part, const trace_signal *signal,
+                             const gate_rule *rule) {
+  (void)c, (void)signal, (void)rule;
+  return metrics_max(part->time, part->error, part->count);
 }
 
-static void sum_up(comparison *c, const residual *r, const char *signal, const char *unit) {
-  residual p = windowed(c, r, signal, "max");
-  add_part(c, &p, signal, "max", unit, metrics_max(p.time, p.error, p.count));
-  p = windowed(c, r, signal, "scaled_max");
-  add_part(c, &p, signal, "scaled_max", unit,
-           metrics_scaled_max(p.time, p.error, p.count, c->growth_rate));
-  p = windowed(c, r, signal, "rmse");
-  add_part(c, &p, signal, "rmse", unit, (metrics_peak){metrics_rms(p.error, p.count), NAN});
-  p = windowed(c, r, signal, "end");
-  size_t last = p.count ? p.count - 1 : 0;
-  metrics_peak end = {NAN, NAN};
-  if (p.count) end = (metrics_peak){fabs(p.error[last]), p.time[last]};
-  add_part(c, &p, signal, "end", unit, end);
+static metrics_peak find_scaled_max(comparison *c, const residual *part, const trace_signal *signal,
+                                    const gate_rule *rule) {
+  (void)signal, (void)rule;
+  return metrics_scaled_max(part->time, part->error, part->count, c->growth_rate);
 }
 
-// What is judged is as much of a ride as can be predicted; the rest is told.
-static void tell_of_rest(comparison *c, const residual *r, const char *signal, const char *unit,
-                         size_t all) {
-  if (all > r->count)
-    add(c, signal, "beyond_horizon", unit,
-        metrics_max(r->time + r->count, r->error + r->count, all - r->count));
+static metrics_peak find_rmse(comparison *c, const residual *part, const trace_signal *signal,
+                              const gate_rule *rule) {
+  (void)c, (void)signal, (void)rule;
+  return (metrics_peak){metrics_rms(part->error, part->count), NAN};
+}
+
+static metrics_peak find_end(comparison *c, const residual *part, const trace_signal *signal,
+                             const gate_rule *rule) {
+  (void)c, (void)signal, (void)rule;
+  size_t last = part->count - 1;
+  return (metrics_peak){fabs(part->error[last]), part->time[last]};
 }
 
 // Root mean square over what the signal does: its range, or where that is less the nominal size
 // below which nobody looks: the rule's, or 1 cm, 1 cm/s or half a degree.
-static void add_nrmse(comparison *c, const residual *r, const trace_signal *signal) {
+static metrics_peak find_nrmse(comparison *c, const residual *part, const trace_signal *signal,
+                               const gate_rule *rule) {
   static const double nominal = 0.01;
-  const gate_rule *rule = rule_of(c, signal->name, "nrmse");
-  residual p = windowed(c, r, signal->name, "nrmse");
   double low = INFINITY, high = -INFINITY;
-  for (size_t k = 0; k < p.count; k++) {
-    double value = trace_value(&c->side[REFERENCE].trace.rows[p.first + k], signal);
+  for (size_t k = 0; k < part->count; k++) {
+    double value = trace_value(&c->side[REFERENCE].trace.rows[part->first + k], signal);
     low = fmin(low, value), high = fmax(high, value);
   }
   double size = fmax(high - low, rule && rule->nominal > 0 ? rule->nominal : nominal);
-  add_part(c, &p, signal->name, "nrmse", "",
-           (metrics_peak){metrics_rms(p.error, p.count) / size, NAN});
+  return (metrics_peak){metrics_rms(part->error, part->count) / size, NAN};
 }
 
 // How far the candidate leaves the tube about the reference whose half width in time is the rule's;
-// the half width in value is its limit. Only where a rule asks.
-static void add_tube(comparison *c, const residual *r, const trace_signal *signal) {
-  const gate_rule *rule = rule_of(c, signal->name, "tube");
-  if (!rule) return;
-  residual p = windowed(c, r, signal->name, "tube");
-  double *a = calloc(p.count + 1, sizeof *a), *b = calloc(p.count + 1, sizeof *b);
-  for (size_t k = 0; a && b && k < p.count; k++) {
-    a[k] = trace_value(&c->side[REFERENCE].trace.rows[p.first + k], signal);
-    b[k] = trace_value(&c->side[CANDIDATE].trace.rows[p.first + k], signal);
+// the half width in value is its limit.
+static metrics_peak find_tube(comparison *c, const residual *part, const trace_signal *signal,
+                              const gate_rule *rule) {
+  metrics_peak peak = {NAN, NAN};
+  double *a = calloc(part->count, sizeof *a), *b = calloc(part->count, sizeof *b);
+  for (size_t k = 0; a && b && k < part->count; k++) {
+    a[k] = trace_value(&c->side[REFERENCE].trace.rows[part->first + k], signal);
+    b[k] = trace_value(&c->side[CANDIDATE].trace.rows[part->first + k], signal);
   }
   if (a && b)
-    add_part(c, &p, signal->name, "tube", signal->unit,
-             metrics_tube(p.time, a, b, p.count, rule->time_tolerance));
+    peak = metrics_tube(part->time, a, b, part->count, rule->time_tolerance);
   else
     c->measurements.lost = true;
   free(a);
   free(b);
+  return peak;
+}
+
+static const struct {
+  const char *name;
+  metric_function *find;
+  bool of_values;  // of a signal's values, which a force has not here
+  bool on_request; // only where a rule asks
+  bool relative;   // a pure number
+} metrics[] = {
+    {"max", find_max, false, false, false},   {"scaled_max", find_scaled_max, false, false, false},
+    {"rmse", find_rmse, false, false, false}, {"end", find_end, false, false, false},
+    {"nrmse", find_nrmse, true, false, true}, {"tube", find_tube, true, true, false},
+};
+enum { METRIC_COUNT = sizeof metrics / sizeof *metrics };
+
+//---------------------------------- signals -------------------------------------------------------
+
+// One signal: `of` is NULL for a force.
+typedef struct subject {
+  const char *name, *unit;
+  const trace_signal *of;
+} subject;
+
+// A metric of a part of the ride, which without a row is no success.
+static void measure_part(comparison *c, const residual *r, const subject *s, int metric,
+                         double from, double to) {
+  measurement m = measurement_of(layer_traces.name, s->name, metrics[metric].name,
+                                 metrics[metric].relative ? "" : s->unit);
+  m.from = from;
+  m.to = to;
+  const gate_rule *rule = gate_rule_for(&m, &c->scenario->rules);
+  residual part = part_of(c, r, from, to);
+  if (!rule && metrics[metric].on_request) return;
+  if (part.count > 0) {
+    metrics_peak peak = metrics[metric].find(c, &part, s->of, rule);
+    m.value = peak.value;
+    m.time = peak.time;
+  } else if (from > 0 || to > 0) {
+    measurement_detail(&m, "no comparable row from %g s on within the window", from);
+  }
+  measurement_add(&c->measurements, &m);
+}
+
+// Whether an earlier rule has asked for the same part.
+static bool is_repeated(const gate_rules *rules, size_t index, const measurement *m) {
+  for (size_t i = 0; i < index; i++)
+    if (gate_rule_names(&rules->items[i], m) && rules->items[i].from == rules->items[index].from &&
+        rules->items[i].to == rules->items[index].to)
+      return true;
+  return false;
+}
+
+// Of the whole ride, and of each part of it for which there is a rule.
+static void measure_metric(comparison *c, const residual *r, const subject *s, int metric) {
+  const gate_rules *rules = &c->scenario->rules;
+  const measurement m = measurement_of(layer_traces.name, s->name, metrics[metric].name, "");
+  measure_part(c, r, s, metric, 0, 0);
+  for (size_t i = 0; i < rules->count; i++) {
+    const gate_rule *rule = &rules->items[i];
+    if ((rule->from > 0 || rule->to > 0) && gate_rule_names(rule, &m) && !is_repeated(rules, i, &m))
+      measure_part(c, r, s, metric, rule->from, rule->to);
+  }
+}
+
+// What is judged is as much of a ride as can be predicted; the rest is told.
+static void sum_up(comparison *c, const residual *r, const subject *s) {
+  size_t all = comparison_rows(c);
+  for (int i = 0; i < METRIC_COUNT; i++)
+    if (s->of || !metrics[i].of_values) measure_metric(c, r, s, i);
+  if (all > r->count)
+    add(c, s->name, "beyond_horizon", s->unit,
+        metrics_max(r->time + r->count, r->error + r->count, all - r->count));
 }
 
 static void compare_signal(comparison *c, residual *r, const trace_signal *signal) {
-  size_t all = comparison_rows(c);
-  if (!trace_has(&c->side[REFERENCE].trace, signal) ||
-      !trace_has(&c->side[CANDIDATE].trace, signal))
-    return;
-  for (size_t k = 0; k < all; k++)
-    r->error[k] = trace_value(&c->side[CANDIDATE].trace.rows[k], signal) -
-                  trace_value(&c->side[REFERENCE].trace.rows[k], signal);
-  sum_up(c, r, signal->name, signal->unit);
-  add_nrmse(c, r, signal);
-  add_tube(c, r, signal);
-  tell_of_rest(c, r, signal->name, signal->unit, all);
+  const trace *a = &c->side[REFERENCE].trace, *b = &c->side[CANDIDATE].trace;
+  if (!trace_has(a, signal) || !trace_has(b, signal)) return;
+  for (size_t k = 0; k < comparison_rows(c); k++)
+    r->error[k] = trace_value(&b->rows[k], signal) - trace_value(&a->rows[k], signal);
+  sum_up(c, r, &(subject){signal->name, signal->unit, signal});
 }
 
 // All components of the force on a wheel.
@@ -160,8 +208,7 @@ static void compare_force(comparison *c, residual *r, int wheel) {
     for (int i = 0; i < 3; i++) sum += (b[i] - a[i]) * (b[i] - a[i]);
     r->error[k] = sqrt(sum) / c->weight;
   }
-  sum_up(c, r, forces[wheel], "");
-  tell_of_rest(c, r, forces[wheel], "", comparison_rows(c));
+  sum_up(c, r, &(subject){forces[wheel], "", NULL});
 }
 
 // When a ride ended, s. A complete one of an engine that rounds ends with the scenario.
@@ -246,8 +293,11 @@ static term_exit measure(comparison *c, problem *p) {
 
 static bool knows(const char *signal, const char *metric) {
   if (strcmp(metric, "difference") == 0) return !signal || strcmp(signal, "end_time") == 0;
-  return layer_names(metrics, metric) &&
-         (!signal || layer_names(compared, signal) || layer_names(forces, signal));
+  for (int i = 0; i < METRIC_COUNT; i++)
+    if (strcmp(metrics[i].name, metric) == 0)
+      return !signal || layer_names(compared, signal) ||
+             (layer_names(forces, signal) && !metrics[i].of_values);
+  return false;
 }
 
 // Events are located within a step of some milliseconds, by interpolation.

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 measurement measurement_of(const char *layer, const char *signal, const char *metric,
                            const char *unit) {
@@ -42,4 +43,22 @@ void measurement_clear(measurement_list *list) {
 const char *measurement_full_name(char out[MEASUREMENT_FULL_NAME], const measurement *m) {
   snprintf(out, MEASUREMENT_FULL_NAME, "%s%s%s", m->source, *m->source ? "." : "", m->signal);
   return out;
+}
+
+const char *measurement_metric(char out[MEASUREMENT_METRIC], const char *metric, double from,
+                               double to) {
+  if (from > 0 && to > 0)
+    snprintf(out, MEASUREMENT_METRIC, "%s (%.6g to %.6g s)", metric, from, to);
+  else if (from > 0 || to > 0)
+    snprintf(out, MEASUREMENT_METRIC, "%s (%s %.6g s)", metric, from > 0 ? "from" : "to",
+             from > 0 ? from : to);
+  else
+    snprintf(out, MEASUREMENT_METRIC, "%s", metric);
+  return out;
+}
+
+bool measurement_is_like(const measurement *a, const measurement *b) {
+  return strcmp(a->layer, b->layer) == 0 && strcmp(a->source, b->source) == 0 &&
+         strcmp(a->signal, b->signal) == 0 && strcmp(a->metric, b->metric) == 0 &&
+         a->from == b->from && a->to == b->to;
 }

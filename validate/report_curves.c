@@ -86,14 +86,29 @@ static report_gate gate_of(const json_t *entry, const char *signal, const char *
   return (report_gate){.limit = NAN};
 }
 
-// The limit of a signal over time; that of an unstable ride grows with it.
+// Lowers a limit over time to that of a gate, in the part of the ride that it judges.
+static void lower(report_series *limit, const comparison *c, const report_gate *g, double growth) {
+  const trace_row *rows = c->side[REFERENCE].trace.rows;
+  for (size_t k = 0; k < limit->count; k++) {
+    double time = rows[k].sample.time;
+    if (time >= g->from && (g->to == 0 || time <= g->to))
+      limit->value[k] = fmin(limit->value[k], g->limit * exp(growth * time)); // fmin skips a NaN
+  }
+}
+
+// The limit of a signal over time, NaN where nothing is judged; that of an unstable ride grows.
 static report_series limit_of(const comparison *c, const json_t *entry, const char *signal) {
-  double plain = gate_of(entry, signal, "max").limit;
-  double scaled = gate_of(entry, signal, "scaled_max").limit;
-  if (isnan(plain) && isnan(scaled)) return (report_series){0};
   report_series s = report_series_time(c, REFERENCE);
-  for (size_t k = 0; k < s.count; k++)
-    s.value[k] = fmin(plain, scaled * exp(c->growth_rate * s.value[k])); // fmin skips a NaN
+  bool any = false;
+  for (size_t k = 0; k < s.count; k++) s.value[k] = NAN;
+  for (size_t i = 0; i < report_count(entry, "gates"); i++) {
+    report_gate g = report_gate_at(entry, i);
+    bool plain = strcmp(g.metric, "max") == 0, scaled = strcmp(g.metric, "scaled_max") == 0;
+    if (strcmp(g.signal, signal) != 0 || (!plain && !scaled)) continue;
+    lower(&s, c, &g, scaled ? c->growth_rate : 0);
+    any = true;
+  }
+  if (!any) report_series_clear(&s);
   return s;
 }
 

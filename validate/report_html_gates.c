@@ -34,7 +34,7 @@ static void print_gate(FILE *stream, const report_gate *g, bool baseline, size_t
   if (isfinite(g->time)) snprintf(time, sizeof time, "%.4f s", g->time);
   report_markup(stream, "<tr class=%s><td>%s<td class=r>%s<td>%s<td>%s<td>%s",
                 g->pass ? (use > 0.5 ? "near" : "ok") : "fail", g->pass ? "holds" : "fails",
-                report_margin(margin, use), g->layer, g->signal, g->metric);
+                report_margin(margin, use), g->layer, g->signal, g->metric_words);
   report_markup(stream, "<td class=r>%s<td class=r>%s<td class=r>%s",
                 report_number(value, g->value), report_quantity(limit, g->limit, g->unit), time);
   if (baseline) print_change(stream, g);

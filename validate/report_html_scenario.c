@@ -120,7 +120,7 @@ static void print_studies(FILE *stream, const json_t *s) {
 static void print_information(FILE *stream, const json_t *s) {
   size_t i;
   const json_t *m;
-  char value[REPORT_NUMBER], time[REPORT_NUMBER];
+  char value[REPORT_NUMBER], time[REPORT_NUMBER], metric[MEASUREMENT_METRIC];
   fprintf(stream,
           "<details><summary>Measured without a limit (%zu)</summary>\n<div class=wide><table "
           "class=sortable><thead><tr><th>Layer<th>Signal<th>Metric<th>Value<th>At<th>Seen</tr>"
@@ -128,7 +128,7 @@ static void print_information(FILE *stream, const json_t *s) {
           report_count(s, "information"));
   json_array_foreach(json_object_get(s, "information"), i, m) {
     report_markup(stream, "<tr><td>%s<td>%s<td>%s<td class=r>%s", report_text(m, "layer"),
-                  report_text(m, "signal"), report_text(m, "metric"),
+                  report_text(m, "signal"), report_metric(metric, m),
                   report_quantity(value, report_real(m, "value"), report_text(m, "unit")));
     double at = report_real(m, "time");
     report_markup(stream, "<td class=r>%s<td class=dim>%s</tr>\n",

@@ -38,6 +38,8 @@ static json_t *measurement_json(const measurement *m) {
   json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:s}", "layer", m->layer, "signal",
                              measurement_full_name(name, m), "metric", m->metric, "value",
                              term_json_number(m->value), "unit", m->unit);
+  if (m->from > 0) json_object_set_new(object, "from", term_json_number(m->from));
+  if (m->to > 0) json_object_set_new(object, "to", term_json_number(m->to));
   if (isfinite(m->time)) json_object_set_new(object, "time", term_json_number(m->time));
   if (*m->detail) json_object_set_new(object, "detail", json_string(m->detail));
   return object;
@@ -46,8 +48,6 @@ static json_t *measurement_json(const measurement *m) {
 static json_t *gate_json(const gate *g) {
   json_t *object = measurement_json(&g->what);
   json_object_set_new(object, "limit", term_json_number(g->rule->limit));
-  if (g->rule->from > 0) json_object_set_new(object, "from", term_json_number(g->rule->from));
-  if (g->rule->to > 0) json_object_set_new(object, "to", term_json_number(g->rule->to));
   json_object_set_new(object, "pass", json_boolean(g->pass));
   json_object_set_new(object, "reason", json_string(g->rule->reason));
   return object;
@@ -61,12 +61,8 @@ static json_t *gates_json(const gate_list *gates) {
 }
 
 static bool is_judged(const measurement *m, const gate_list *gates) {
-  for (size_t i = 0; i < gates->count; i++) {
-    const measurement *g = &gates->items[i].what;
-    if (strcmp(g->layer, m->layer) == 0 && strcmp(g->source, m->source) == 0 &&
-        strcmp(g->signal, m->signal) == 0 && strcmp(g->metric, m->metric) == 0)
-      return true;
-  }
+  for (size_t i = 0; i < gates->count; i++)
+    if (measurement_is_like(&gates->items[i].what, m)) return true;
   return false;
 }
 

@@ -29,7 +29,7 @@ static double ride_seconds(const json_t *document, const char *name) {
 static void print_gate(FILE *stream, const char *name, const report_gate *g) {
   char value[REPORT_NUMBER], limit[REPORT_NUMBER], time[REPORT_NUMBER];
   report_markup(stream, "    <testcase classname=\"%s.%s\" name=\"%s %s\"", name, g->layer,
-                g->signal, g->metric);
+                g->signal, g->metric_words);
   bool worse = strcmp(g->change, "worse") == 0;
   if (g->pass && !worse) {
     fputs("/>\n", stream);

@@ -70,15 +70,18 @@ static void print_margin(char out[CELL], const gate *g) {
 
 // `change`: against the baseline.
 static void add_row(term_table *table, const gate *g, const char *change) {
-  char signal[MEASUREMENT_FULL_NAME], value[CELL], limit[CELL], margin[CELL], at[CELL] = "";
+  char signal[MEASUREMENT_FULL_NAME], metric[MEASUREMENT_METRIC], value[CELL], limit[CELL],
+      margin[CELL], at[CELL] = "";
   const char *space = *g->what.unit ? " " : "";
   snprintf(value, sizeof value, "%.3g", g->what.value);
   snprintf(limit, sizeof limit, "%.3g%s%s", g->rule->limit, space, g->what.unit);
   print_margin(margin, g);
   if (isfinite(g->what.time)) snprintf(at, sizeof at, "%.4g s", g->what.time);
-  term_table_add(table, g->pass ? TERM_PLAIN : TERM_BAD,
-                 (const char *const[]){"", g->what.layer, measurement_full_name(signal, &g->what),
-                                       g->what.metric, value, limit, margin, at, change});
+  term_table_add(
+      table, g->pass ? TERM_PLAIN : TERM_BAD,
+      (const char *const[]){"", g->what.layer, measurement_full_name(signal, &g->what),
+                            measurement_metric(metric, g->what.metric, g->what.from, g->what.to),
+                            value, limit, margin, at, change});
 }
 
 // `entry` is the scenario in the document.

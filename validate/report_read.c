@@ -20,10 +20,21 @@ size_t report_count(const json_t *object, const char *key) {
   return json_array_size(json_object_get(object, key));
 }
 
+// Of `from` and `to`: without them the part begins at the start and ends at the end.
+static double bound(const json_t *measured, const char *key) {
+  double time = report_real(measured, key);
+  return isnan(time) ? 0 : time;
+}
+
+const char *report_metric(char out[MEASUREMENT_METRIC], const json_t *measured) {
+  return measurement_metric(out, report_text(measured, "metric"), bound(measured, "from"),
+                            bound(measured, "to"));
+}
+
 report_gate report_gate_at(const json_t *entry, size_t index) {
   const json_t *g = json_array_get(json_object_get(entry, "gates"), index);
   const json_t *baseline = json_object_get(g, "baseline");
-  return (report_gate){
+  report_gate gate = {
       .layer = report_text(g, "layer"),
       .signal = report_text(g, "signal"),
       .metric = report_text(g, "metric"),
@@ -33,11 +44,15 @@ report_gate report_gate_at(const json_t *entry, size_t index) {
       .value = report_real(g, "value"),
       .limit = report_real(g, "limit"),
       .time = report_real(g, "time"),
+      .from = bound(g, "from"),
+      .to = bound(g, "to"),
       .pass = json_is_true(json_object_get(g, "pass")),
       .change = report_text(baseline, "change"),
       .before = report_real(baseline, "value"),
       .index = index,
   };
+  report_metric(gate.metric_words, g);
+  return gate;
 }
 
 double report_gate_use(const report_gate *g) {

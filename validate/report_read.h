@@ -4,6 +4,8 @@
 #ifndef VALIDATE_REPORT_READ_H
 #define VALIDATE_REPORT_READ_H
 
+#include "measurement.h"
+
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -11,13 +13,18 @@
 // A gate of a scenario. Texts belong to the document and are never NULL.
 typedef struct report_gate {
   const char *layer, *signal, *metric, *unit, *detail, *reason;
-  double value, limit; // NaN for null
-  double time;         // s  NaN without
+  char metric_words[MEASUREMENT_METRIC]; // with its part of the ride: "max (1 to 3 s)"
+  double value, limit;                   // NaN for null
+  double time;                           // s  NaN without
+  double from, to;                       // s  the part of the ride; 0: to its end
   bool pass;
   const char *change; // "better", "same", "worse" than the baseline; "" without one
   double before;      // the baseline's value; NaN without
   size_t index;       // within the scenario
 } report_gate;
+
+// The metric of a gate or a measurement with its part of the ride, as in report_gate.
+const char *report_metric(char out[MEASUREMENT_METRIC], const json_t *measured);
 
 // Empty text, NaN for what is missing or of another type.
 const char *report_text(const json_t *object, const char *key);

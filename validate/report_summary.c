@@ -44,7 +44,7 @@ static void print_row(FILE *stream, const json_t *entry) {
   print_text(stream, report_text(entry, "title"));
   fprintf(stream, " | %zu of %zu | ", count - report_failed_gates(entry), count);
   if (gates && count > 0) {
-    fprintf(stream, "`%s %s` | %s |", gates[0].signal, gates[0].metric,
+    fprintf(stream, "`%s %s` | %s |", gates[0].signal, gates[0].metric_words,
             report_margin(margin, report_gate_use(&gates[0])));
   } else {
     fputs("- | - |", stream);
@@ -68,7 +68,7 @@ static void print_failures(FILE *stream, const json_t *entry) {
   fputs("\n\n", stream);
   for (size_t i = 0; i < failed && i < SHOWN_FAILURES; i++) {
     fprintf(stream, "- `%s %s %s`: %s, limit %s\n", gates[i].layer, gates[i].signal,
-            gates[i].metric, report_number(value, gates[i].value),
+            gates[i].metric_words, report_number(value, gates[i].value),
             report_quantity(limit, gates[i].limit, gates[i].unit));
   }
   if (failed > SHOWN_FAILURES) fprintf(stream, "- and %zu more\n", failed - SHOWN_FAILURES);

@@ -16,8 +16,9 @@ typedef struct suite {
 // TERM_USAGE with one line; the suite is then empty.
 term_exit suite_load(suite *out, char *const *given, int given_count, problem *p);
 
-// Plays all of them on up to `jobs` threads, with progress on stderr. What comes out does not depend
-// on their number but for timings. The problem is that of the first scenario in order that has one.
+// Plays all of them on up to `jobs` threads, with progress on stderr. What comes out does not
+// depend on their number but for timings. The problem is that of the first scenario in order that
+// has one.
 term_exit suite_play(suite *s, int jobs, problem *p);
 
 void suite_clear(suite *s);

@@ -105,6 +105,27 @@ static void test_gates_that_come_and_go(void **state) {
   json_decref(b);
 }
 
+// A limit for another part of the ride is another gate, and the old one is missed.
+static void test_windows_are_noticed(void **state) {
+  (void)state;
+  json_t *a = copy(), *b = copy();
+  json_object_set_new(gate_of(b, "lean"), "from", json_real(0.25));
+  assert_true(baseline_compare(b, a));
+  assert_string_equal(report_text(json_object_get(gate_of(b, "lean"), "baseline"), "change"),
+                      "new");
+  const json_t *gone = json_object_get(json_object_get(entry_of(b), "baseline"), "gone");
+  assert_string_equal(json_string_value(json_array_get(gone, 0)), "L2 lean max");
+  assert_true(baseline_is_worse(b));
+  json_decref(b);
+  b = copy();
+  json_object_set_new(gate_of(a, "lean"), "from", json_real(0.25));
+  json_object_set_new(gate_of(b, "lean"), "from", json_real(0.25));
+  assert_true(baseline_compare(b, a));
+  assert_false(baseline_is_worse(b));
+  json_decref(a);
+  json_decref(b);
+}
+
 static void test_timings_never_count(void **state) {
   (void)state;
   json_t *a = copy(), *b = copy();
@@ -245,6 +266,7 @@ int main(void) {
       cmocka_unit_test(test_changes),
       cmocka_unit_test(test_floor_of_study),
       cmocka_unit_test(test_gates_that_come_and_go),
+      cmocka_unit_test(test_windows_are_noticed),
       cmocka_unit_test(test_timings_never_count),
       cmocka_unit_test(test_misfits),
       cmocka_unit_test_setup_teardown(test_bless_and_compare, support_enter, support_leave),

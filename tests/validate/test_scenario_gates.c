@@ -85,10 +85,64 @@ static void test_end_of_window(void **state) {
   expect("metric: end, limit: 1e-8, to: 0.4", "end", true);
 }
 
+// The measured largest error of lean in a part of the ride; the test fails without one.
+static const measurement *max_within(const comparison *c, double from, double to) {
+  for (size_t i = 0; i < c->measurements.count; i++) {
+    const measurement *m = &c->measurements.items[i];
+    if (strcmp(m->signal, "lean") == 0 && strcmp(m->metric, "max") == 0 && m->from == from &&
+        m->to == to)
+      return m;
+  }
+  fail_msg("nothing measured from %g to %g s", from, to);
+  return NULL;
+}
+
+static const gate *gate_of(const comparison *c, const measurement *m) {
+  for (size_t i = 0; i < c->gates.count; i++)
+    if (measurement_is_like(&c->gates.items[i].what, m)) return &c->gates.items[i];
+  return NULL;
+}
+
+// Each part of a ride is judged by its own rule, the last for that part; the whole by another.
+static void test_several_windows(void **state) {
+  (void)state;
+  support_run *f = play(
+      "metric: max, limit: 1e-8, to: 0.1}\n"
+      "  - {layer: L2, metric: max, signals: [lean, steer], limit: 1, from: 0.2, to: 0.3, reason: "
+      "r}\n"
+      "  - {layer: L2, metric: max, signals: [lean], limit: 1e-8, from: 0.4, reason: r}\n"
+      "  - {layer: L2, metric: max, signals: [lean], limit: 2, from: 0.2, to: 0.3, reason: last");
+  const comparison *c = &f->comparison;
+  assert_below(max_within(c, 0, 0.1)->value, 1e-8);
+  assert_near(max_within(c, 0.2, 0.3)->value, fault, 1e-9);
+  assert_below(max_within(c, 0.4, 0)->value, 1e-8);
+  assert_near(max_within(c, 0, 0)->value, fault, 1e-9);
+  assert_null(gate_of(c, max_within(c, 0, 0))); // the whole ride is information
+  assert_true(gate_of(c, max_within(c, 0, 0.1))->rule->limit == 1e-8);
+  assert_string_equal(gate_of(c, max_within(c, 0.2, 0.3))->rule->reason, "last");
+  assert_string_equal(c->cause, "");
+  support_close(f);
+  f = play(
+      "metric: max, limit: 1e-8, to: 0.1}\n"
+      "  - {layer: L2, metric: max, signals: [lean], limit: 1e-8, from: 0.1, to: 0.25, reason: r");
+  support_expect_failure(&f->comparison, "L2", "max (0.1 to 0.25 s)");
+  assert_int_equal(gates_failed(&f->comparison.gates), 1);
+  support_close(f);
+}
+
+static void test_window_in_words(void **state) {
+  (void)state;
+  char out[MEASUREMENT_METRIC];
+  assert_string_equal(measurement_metric(out, "max", 0, 0), "max");
+  assert_string_equal(measurement_metric(out, "max", 1, 0), "max (from 1 s)");
+  assert_string_equal(measurement_metric(out, "max", 0, 3), "max (to 3 s)");
+  assert_string_equal(measurement_metric(out, "rmse", 0.25, 3), "rmse (0.25 to 3 s)");
+}
+
 static void test_empty_window_says_so(void **state) {
   (void)state;
   support_run *f = play("metric: max, limit: 1, from: 0.32, to: 0.38");
-  const measurement *m = support_find(&f->comparison, "L2", "lean", "max");
+  const measurement *m = max_within(&f->comparison, 0.32, 0.38);
   assert_true(isnan(m->value));
   assert_non_null(strstr(m->detail, "no comparable row"));
   support_close(f);
@@ -121,6 +175,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_window),
       cmocka_unit_test(test_end_of_window),
+      cmocka_unit_test(test_several_windows),
+      cmocka_unit_test(test_window_in_words),
       cmocka_unit_test(test_empty_window_says_so),
       cmocka_unit_test(test_nominal),
       cmocka_unit_test(test_information_is_measured_not_judged),

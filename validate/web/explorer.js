@@ -124,17 +124,20 @@ class Explorer {
     };
   }
 
-  gate(signal, metric) {
-    return this.facts.gates.find((g) => g.signal === signal && g.metric === metric);
+  gates(signal, metric) {
+    return this.facts.gates.filter((g) => g.signal === signal && g.metric === metric);
   }
 
-  // A limit as a line; that of an unstable ride grows with it.
+  // A limit as a line, where something is judged; that of an unstable ride grows with it.
   limitLine(signal, metric) {
-    const plain = this.gate(signal, metric), scaled = this.gate(signal, 'scaled_max');
-    if (!plain && !scaled) return [];
+    const gates = [...this.gates(signal, metric), ...this.gates(signal, 'scaled_max')];
+    if (!gates.length) return [];
     const rate = this.facts.setup.growth_rate;
-    const values = this.data.time.map((t) => Math.min(
-      plain ? plain.limit : Infinity, scaled ? scaled.limit * Math.exp(rate * t) : Infinity));
+    const values = this.data.time.map((t) => {
+      const here = gates.filter((g) => t >= (g.from ?? 0) && t <= (g.to ?? Infinity));
+      const limits = here.map((g) => g.metric === 'scaled_max' ? g.limit * Math.exp(rate * t) : g.limit);
+      return limits.length ? Math.min(...limits) : NaN;
+    });
     return [{name: 'limit', color: 'bad', dash: [8, 3], width: 1, values}];
   }
 
@@ -158,7 +161,7 @@ class Explorer {
     const lines = this.labels.map((label, i) => ({
       name: label, color: i ? 'cand' : 'ref', values: this.data.column(label, 'balance'),
     }));
-    const gate = this.gate(this.labels[1] + '.energy', 'balance_max');
+    const [gate] = this.gates(this.labels[1] + '.energy', 'balance_max');
     if (gate) lines.push({name: 'limit', color: 'bad', dash: [8, 3], width: 1, values: this.data.time.map(() => gate.limit)});
     return {title: 'Energy not accounted for, of the energy at the start', log: true, lines: [...lines, ...this.floorLine(EPSILON)]};
   }
