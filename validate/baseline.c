@@ -64,8 +64,10 @@ static json_t *entry_named(const json_t *document, const char *name) {
   return NULL;
 }
 
+// Also where both have no such key.
 static bool equal(const json_t *a, const json_t *b, const char *key) {
-  return json_equal(json_object_get(a, key), json_object_get(b, key));
+  const json_t *x = json_object_get(a, key), *y = json_object_get(b, key);
+  return json_equal(x, y) || (!x && !y);
 }
 
 // Options of an engine but for the path of a file, which differs from one checkout to the next.
@@ -83,7 +85,7 @@ static bool same_options(const json_t *a, const json_t *b) {
 // The first key in which two entries differ that decides whether they can be compared; NULL if
 // they can. Derived numbers of the setup (its growth rate) may differ by a rounding.
 static const char *first_difference(const json_t *a, const json_t *b) {
-  static const char *const setup[] = {"start", "duration", "sample", "instants"};
+  static const char *const setup[] = {"start", "duration", "sample", "instants", "input"};
   static const char *const roles[] = {"reference", "candidate"};
   static const char *const engine_keys[] = {"engine", "version"};
   if (!equal(a, b, "parameter_sha256")) return "parameter_sha256";

@@ -48,12 +48,22 @@ static int count_rides(const scenario *s) {
   return 2 + s->convergence.count + (s->horizon.asked ? 2 : 0) + 2 * s->cost.repeats;
 }
 
+static term_exit check_input(const scenario *s, problem *p) {
+  const engine *engines[2] = {s->reference.engine, s->candidate.engine};
+  for (int i = 0; scenario_has_input(&s->input) && i < 2; i++)
+    if (!engines[i]->takes_input)
+      return problem_set(p, TERM_USAGE, "%s: this engine rides hands off, without input",
+                         engines[i]->name);
+  return TERM_DONE;
+}
+
 term_exit comparison_open(comparison *c, const scenario *s, problem *p) {
   *c = (comparison){.scenario = s, .weight = s->model.total_mass * s->model.gravity};
   c->rides = count_rides(s);
   const engine *reference = s->reference.engine, *candidate = s->candidate.engine;
   bool alike = strcmp(reference->name, candidate->name) == 0;
-  term_exit code = resolve_growth(c, p);
+  term_exit code = check_input(s, p);
+  if (code == TERM_DONE) code = resolve_growth(c, p);
   if (code == TERM_DONE)
     code = open_side(&c->side[REFERENCE], &s->reference, alike ? "reference" : reference->name,
                      &s->bicycle, p);
@@ -91,6 +101,12 @@ static term_exit ride(trace *out, comparison *c, const engine *e, void *instance
       .progress = ride_progressed,
       .user = c,
   };
+  scenario_input input = c->scenario->input; // only read
+  if (scenario_has_input(&input)) {
+    asked.input = scenario_input_at;
+    asked.input_user = &input;
+  }
+  if (input.table) asked.breakpoints = bike_input_table_times(input.table, &asked.breakpoint_count);
   term_exit code = e->ride(out, instance, &asked, p);
   c->played++;
   if (code != TERM_DONE) return code;

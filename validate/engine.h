@@ -46,11 +46,15 @@ typedef struct engine_instant {
 typedef bool engine_progress(double share, void *user);
 
 typedef struct engine_ride {
-  bike_state start;          //
-  double duration, sample;   // s
-  double lean_limit;         // rad  the ride ends there
-  engine_progress *progress; //  may be NULL
-  void *user;                //
+  bike_state start;           //
+  double duration, sample;    // s
+  double lean_limit;          // rad  the ride ends there
+  bike_input_function *input; //      NULL: hands off
+  void *input_user;           //      its argument
+  const double *breakpoints;  // s    rising times at which the input is not smooth
+  size_t breakpoint_count;    //
+  engine_progress *progress;  //  may be NULL
+  void *user;                 //
 } engine_ride;
 
 // Where a recorded ride has a signal: its column, and by what that is multiplied to become SI with
@@ -70,6 +74,7 @@ typedef struct engine_choice {
   // The user's own MuJoCo model of the bicycle, as it is opened; empty: the bicycle came as a
   // bicycle file, and an engine makes its model itself.
   char model[ENGINE_PATH_SIZE];
+  bool moving_rider; // the rides' input moves the rider
   // Of an engine that plays a recorded ride:
   char file[ENGINE_PATH_SIZE];               // its path, as it is opened
   engine_column columns[ENGINE_MAX_COLUMNS]; //
@@ -84,6 +89,7 @@ typedef struct engine {
   int option_count;             // <= ENGINE_MAX_OPTIONS
   const char *step_option;      // the one that is the step of integration; NULL: none
   bool plays_file;              // it needs a file, and may have a map of columns
+  bool takes_input;             // rides of it need not be hands off
   bool alone;                   // it changes what is process-global: nothing is played beside it
 
   // An instance for a bicycle. NULL with a problem and its exit code in `code` otherwise.

@@ -116,6 +116,11 @@ static int record(const bike_sample *sample, const bike_sample_more *more, void 
   return r->ride->progress && !r->ride->progress(sample->time / r->ride->duration, r->ride->user);
 }
 
+static void give_input(double time, bike_input *out, void *user) {
+  const recorder *r = user;
+  r->ride->input(time, out, r->ride->input_user);
+}
+
 static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
   const analytic *a = instance;
   recorder r = {out, asked, false};
@@ -128,6 +133,9 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
   def.atol = a->atol;
   def.step = a->step;
   def.lean_limit = asked->lean_limit;
+  if (asked->input) def.input = give_input;
+  def.breakpoints = asked->breakpoints;
+  def.breakpoint_count = asked->breakpoint_count;
   def.on_sample = record;
   def.user = &r;
   bike_ride_result result;
@@ -150,6 +158,7 @@ const engine engine_analytic = {
     .options = options,
     .option_count = OPTION_COUNT,
     .step_option = "step",
+    .takes_input = true,
     .create = create,
     .free = free,
     .version = version,

@@ -185,6 +185,7 @@ const engine engine_file = {
     .name = "file",
     .summary = "a ride recorded in a CSV file by any other simulator",
     .plays_file = true,
+    .takes_input = true, // of which the recording is what came
     .create = create,
     .free = free_recording,
     .version = version,

@@ -106,6 +106,7 @@ static void *create(const bike_bicycle *bicycle, const engine_choice *choice, te
   mjcf_error error = {""};
   m->bicycle = *bicycle;
   m->options = choose(choice->option);
+  m->options.moving_rider = choice->moving_rider;
   if ((int)choice->option[OPTION_INTEGRATOR] == CVODE)
     m->tolerance = choice->option[OPTION_TOLERANCE];
   m->run = *choice->model ? import(m, choice->model, &status, &error)
@@ -221,6 +222,11 @@ static int record(const runner_sample *sample, void *user) {
   return r->ride->progress && !r->ride->progress(share, r->ride->user);
 }
 
+static void give_input(double time, bike_input *out, void *user) {
+  const recorder *r = user;
+  r->ride->input(time, out, r->ride->input_user);
+}
+
 static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
   runner *run = engine_mujoco_runner(instance);
   recorder r = {out, asked, false};
@@ -232,6 +238,7 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
   def.sample = asked->sample;
   def.lean_limit = asked->lean_limit;
   def.tolerance = ((const mujoco *)instance)->tolerance;
+  if (asked->input) def.input = give_input;
   def.on_sample = record;
   def.user = &r;
   runner_ride_result result;
@@ -252,6 +259,7 @@ const engine engine_mujoco = {
     .options = options,
     .option_count = OPTION_COUNT,
     .step_option = "timestep",
+    .takes_input = true,
     .create = create,
     .free = free_mujoco,
     .version = version,

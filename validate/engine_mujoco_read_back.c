@@ -7,19 +7,22 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const body_names[4] = {"rear_frame", "rear_wheel", "front_frame", "front_wheel"};
+// As bike_assembly; a rider who moves is a body of his own, rigid to the rear frame in the file.
+enum { RIDER = 4, BODIES };
+static const char *const body_names[BODIES] = {"rear_frame", "rear_wheel", "front_frame",
+                                               "front_wheel", "rider"};
 
 typedef struct reading {
   const mjModel *m;
-  mjData *d; // positions at qpos0: upright and unsteered
-  int body[4];
-  int steer; // joint
+  mjData *d;        // positions at qpos0: upright and unsteered
+  int body[BODIES]; // -1: no such body
+  int steer;        // joint
 } reading;
 
 static term_exit find_names(reading *r, problem *p) {
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < BODIES; i++) {
     r->body[i] = mj_name2id(r->m, mjOBJ_BODY, body_names[i]);
-    if (r->body[i] < 0)
+    if (r->body[i] < 0 && i != RIDER)
       return problem_set(p, TERM_USAGE, "the model has no body '%s'", body_names[i]);
   }
   r->steer = mj_name2id(r->m, mjOBJ_JOINT, "steer");
@@ -66,11 +69,10 @@ static void read_geometry(bike_geometry *out, const reading *r) {
 }
 
 // A body as a part; `origin` is the rear contact point.
-static void read_part(bike_part *out, const reading *r, bike_assembly assembly,
-                      const double origin[3]) {
-  int body = r->body[assembly];
-  snprintf(out->name, sizeof out->name, "%s", body_names[assembly]);
-  out->assembly = assembly;
+static void read_part(bike_part *out, const reading *r, int index, const double origin[3]) {
+  int body = r->body[index];
+  snprintf(out->name, sizeof out->name, "%s", body_names[index]);
+  out->assembly = index == RIDER ? BIKE_REAR_FRAME : (bike_assembly)index;
   out->mass = r->m->body_mass[body];
   for (int k = 0; k < 3; k++) out->position[k] = r->d->xipos[3 * body + k] - origin[k];
   mjcf_body_inertia(out->inertia, r->m, body);
@@ -90,8 +92,8 @@ term_exit engine_mujoco_read_back(bike_bicycle *out, const mjModel *model, probl
   out->steer_damping = model->dof_damping[model->jnt_dofadr[r.steer]];
   const double *hub = r.d->xpos + 3 * r.body[BIKE_REAR_WHEEL];
   const double origin[3] = {hub[0], hub[1], hub[2] - out->geometry.R_r};
-  out->part_count = 4;
-  for (int i = 0; i < 4; i++) read_part(&out->parts[i], &r, (bike_assembly)i, origin);
+  for (int i = 0; i < BODIES; i++)
+    if (r.body[i] >= 0) read_part(&out->parts[out->part_count++], &r, i, origin);
   mj_deleteData(r.d);
   return TERM_DONE;
 }

@@ -41,6 +41,18 @@ static void print_start(FILE *stream, const json_t *start) {
   }
 }
 
+// What acts on the bicycle; nothing where it rides hands off.
+static void print_input(FILE *stream, const json_t *input) {
+  char steer[REPORT_NUMBER], roll[REPORT_NUMBER];
+  if (!input) return;
+  if (json_object_get(input, "file"))
+    report_markup(stream, "<dt>Input<dd>%s", report_text(input, "file"));
+  else
+    report_markup(stream, "<dt>Input<dd>steer torque %s, roll torque %s",
+                  report_quantity(steer, report_real(input, "steer_torque"), "N m"),
+                  report_quantity(roll, report_real(input, "roll_torque"), "N m"));
+}
+
 // "analytic: rk8, rtol 1e-13, atol 1e-13, step 0.001; libbicycle 0.1.0; 1037 steps"
 static void print_engine(FILE *stream, const json_t *player, const char *role) {
   const char *key;
@@ -69,6 +81,7 @@ static void print_setup(FILE *stream, const json_t *s) {
   report_markup(stream, "<dl class=setup>\n<dt>Bicycle<dd>%s", report_text(s, "bicycle"));
   fputs("<dt>Start<dd>", stream);
   print_start(stream, json_object_get(setup, "start"));
+  print_input(stream, json_object_get(setup, "input"));
   report_markup(stream, "<dt>Length<dd>%s",
                 report_quantity(text, report_real(setup, "duration"), "s"));
   report_markup(stream, ", a row every %s",

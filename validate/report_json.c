@@ -106,6 +106,14 @@ static json_t *engine_json(const comparison_side *side, const engine_choice *cho
   return object;
 }
 
+// What acts on the bicycle; NULL: hands off.
+static json_t *input_json(const scenario_input *input) {
+  if (!scenario_has_input(input)) return NULL;
+  if (input->table) return json_pack("{s:s, s:s}", "file", input->name, "sha256", input->sha256);
+  return json_pack("{s:o, s:o}", "steer_torque", term_json_number(input->steer_torque),
+                   "roll_torque", term_json_number(input->roll_torque));
+}
+
 static json_t *setup_json(const comparison *c) {
   const scenario *s = c->scenario;
   const scenario_instants *i = &s->instants;
@@ -119,9 +127,10 @@ static json_t *setup_json(const comparison *c) {
                 (json_int_t)i->seed, "lean", term_json_number(i->lean), "steer",
                 term_json_number(i->steer), "rate", term_json_number(i->rate), "slow",
                 term_json_number(i->slow), "fast", term_json_number(i->fast));
-  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "start", start, "duration",
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o*}", "start", start, "duration",
                    term_json_number(s->duration), "sample", term_json_number(s->sample),
-                   "growth_rate", term_json_number(c->growth_rate), "instants", instants);
+                   "growth_rate", term_json_number(c->growth_rate), "instants", instants, "input",
+                   input_json(&s->input));
 }
 
 static json_t *scenario_json(const comparison *c) {

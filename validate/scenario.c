@@ -211,6 +211,9 @@ static const bike_key scenario_keys[] = {
     {"horizon", scenario_read_horizon, offsetof(scenario, horizon), false},
     {"rider_offset", read_rider_offset, 0, false},
     {"cost", scenario_read_cost, offsetof(scenario, cost), false},
+    {"steer_torque", bike_yaml_number, offsetof(scenario, input.steer_torque), false},
+    {"roll_torque", bike_yaml_number, offsetof(scenario, input.roll_torque), false},
+    {"input", scenario_read_input_file, offsetof(scenario, input), false},
 };
 
 static bool judges(const gate_rules *rules) {
@@ -233,10 +236,23 @@ static int check_whole(const bike_yaml *yaml, const scenario *s) {
   return BIKE_OK;
 }
 
-// The keys come in any order, so that engines learn of the model at the end.
-static void give_model(scenario *s) {
-  memcpy(s->reference.model, s->model_path, sizeof s->reference.model);
-  memcpy(s->candidate.model, s->model_path, sizeof s->candidate.model);
+// The keys come in any order, so that engines learn of model and rider at the end.
+static void tell_engines(scenario *s) {
+  engine_choice *choice[2] = {&s->reference, &s->candidate};
+  for (int i = 0; i < 2; i++) {
+    memcpy(choice[i]->model, s->model_path, sizeof s->model_path);
+    choice[i]->moving_rider = s->input.table && bike_input_table_has_rider(s->input.table);
+  }
+}
+
+// A file may move the rider only where there is one.
+static int check_rider(const bike_yaml *yaml, const scenario *s) {
+  bike_field field = {"input", 0, NULL};
+  if (!s->input.table || !bike_input_table_has_rider(s->input.table) || s->model.rider_mass > 0)
+    return BIKE_OK;
+  bike_yaml_find(yaml->root, field.key, &field);
+  return bike_yaml_fail(yaml, &field, BIKE_ERROR_NO_RIDER, "%s: rider_offset: %s", s->input.path,
+                        bike_error_string(BIKE_ERROR_NO_RIDER));
 }
 
 static int parse(scenario *s, bike_file_error *error) {
@@ -249,7 +265,9 @@ static int parse(scenario *s, bike_file_error *error) {
   if (!code) code = bike_yaml_read(&yaml, NULL, yaml.root, keys, s);
   if (!code) code = check_whole(&yaml, s);
   if (!code) code = displace_rider(&yaml, s);
-  give_model(s);
+  if (!code) code = scenario_load_input(&yaml, &s->input, s->duration);
+  if (!code) code = check_rider(&yaml, s);
+  tell_engines(s);
   bike_yaml_close(&yaml);
   bike_text_free(&text);
   return code;
@@ -281,4 +299,6 @@ term_exit scenario_read(scenario *out, const char *path, problem *p) {
 void scenario_clear(scenario *s) {
   free(s->rules.items);
   s->rules = (gate_rules){0};
+  bike_input_table_free(s->input.table);
+  s->input = (scenario_input){0};
 }

@@ -7,6 +7,9 @@
 #include "engine.h"
 #include "measurement.h"
 
+#include "sha256.h"
+
+#include <bicycle/input.h>
 #include <stdint.h>
 
 struct layer;
@@ -82,6 +85,16 @@ typedef struct scenario_cost {
   int repeats; // 0: not asked
 } scenario_cost;
 
+// What acts on the bicycle: torques that stay, or a file of torques and the rider's motion. All
+// zero: hands off.
+typedef struct scenario_input {
+  double steer_torque, roll_torque; // N m
+  char name[SCENARIO_PATH];         // of the file, as the scenario says it; empty without one
+  char path[SCENARIO_PATH];         //
+  char sha256[SHA256_HEX_SIZE];     // of the file, in hexadecimal
+  bike_input_table *table;          // NULL without
+} scenario_input;
+
 typedef struct scenario {
   char name[SCENARIO_NAME];           // the file's name without .yml
   char path[SCENARIO_PATH];           //
@@ -92,6 +105,7 @@ typedef struct scenario {
   bike_model model;                   //
   double rider_offset;                // m  to the right; already in `bicycle`
   bike_state start;                   //
+  scenario_input input;               //
   double duration, sample;            // s
   scenario_growth growth;             //
   scenario_instants instants;         //
@@ -107,6 +121,10 @@ typedef struct scenario {
 // without memory; `out` need not be cleared then.
 term_exit scenario_read(scenario *out, const char *path, problem *p);
 void scenario_clear(scenario *s);
+
+// Whether anything acts on the bicycle, and what at a time (a bike_input_function).
+bool scenario_has_input(const scenario_input *input);
+void scenario_input_at(double time, bike_input *out, void *input);
 
 // Path of a scenario on a command line: a file, or the name of a shipped one.
 term_exit scenario_find(char out[SCENARIO_PATH], const char *given, problem *p);

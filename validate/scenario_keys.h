@@ -16,6 +16,11 @@ typedef struct scenario_draft {
 bike_value_reader scenario_read_engine; // engine_choice
 bike_value_reader scenario_read_gates;  // gate_rules
 
+bike_value_reader scenario_read_input_file; // scenario_input
+
+// Loads the input's file, if it has one, when all keys are read.
+int scenario_load_input(const bike_yaml *yaml, scenario_input *input, double duration);
+
 // The questions of single layers (scenario_study.c).
 bike_value_reader scenario_read_linear;      // scenario_linear
 bike_value_reader scenario_read_convergence; // scenario_convergence
