@@ -64,6 +64,17 @@ runner *runner_import(const char *path, runner_status *status, mjcf_error *error
   return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
 }
 
+runner *runner_import_as_is(const char *path, runner_status *status, mjcf_error *error) {
+  *status = RUNNER_MODEL;
+  runner_install_control();
+  mjModel *model = mjcf_load(path, error);
+  if (!model || mj_name2id(model, mjOBJ_TUPLE, "rolling_discs") < 0)
+    return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
+  mj_deleteModel(model);
+  mjcf_fail(error, "%s: its marker 'rolling_discs' makes the wheels roll exactly", path);
+  return NULL;
+}
+
 void runner_free(runner *r) {
   if (!r) return;
   if (r->ride) mj_deleteData(r->ride);

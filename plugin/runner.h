@@ -55,6 +55,10 @@ void runner_free(runner *r);
 // Its integrator and timestep are those of the file until changed.
 runner *runner_import(const char *path, runner_status *status, mjcf_error *error);
 
+// The same model as it is: on its own contacts, whatever they are. RUNNER_MODEL for one whose
+// wheels a marker makes to roll.
+runner *runner_import_as_is(const char *path, runner_status *status, mjcf_error *error);
+
 // Puts the runner's control callback and, after it, exact rolling into MuJoCo, as the first runner
 // does: for who steps a model of his own beside runners. Again: no effect. Any thread.
 void runner_install_control(void);
@@ -152,7 +156,8 @@ typedef struct runner_ride_result {
   bool complete;                      //      the whole duration was ridden
   bike_sample end;                    //      at end_time, interpolated like the event; meaningful
                                       //      with RUNNER_OK
-  int event_count;                    //      further events than BIKE_MAX_EVENTS are not kept
+  int event_count;                    //      further events than BIKE_MAX_EVENTS are not kept, but
+                                      //      the one that ends the ride takes the last place
   bike_event events[BIKE_MAX_EVENTS]; //      in order; what holds at the start at exactly 0, the
                                       //      others to linear interpolation within a step. Those
                                       //      of bicycle/ride.h, but there is no

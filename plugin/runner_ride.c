@@ -135,10 +135,13 @@ static double note_in_order(const course *c, double time[EVENT_KINDS]) {
     for (int k = 0; k < EVENT_KINDS; k++)
       if (!isnan(time[k]) && (first < 0 || time[k] < time[first])) first = k;
     if (first < 0) return NAN;
-    if (c->out->event_count < BIKE_MAX_EVENTS)
-      c->out->events[c->out->event_count] = (bike_event){(bike_event_kind)first, time[first]};
-    c->out->event_count++;
-    if (ends_ride(c, first)) return time[first];
+    // What ends the ride is kept in any case: wheels that bounce can lift a hundred times before.
+    bool last = ends_ride(c, first);
+    int place = c->out->event_count++;
+    if (last && place >= BIKE_MAX_EVENTS) place = BIKE_MAX_EVENTS - 1;
+    if (place < BIKE_MAX_EVENTS)
+      c->out->events[place] = (bike_event){(bike_event_kind)first, time[first]};
+    if (last) return time[first];
     time[first] = NAN;
   }
 }

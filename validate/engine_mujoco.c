@@ -82,13 +82,14 @@ static term_exit fail(problem *p, runner_status status, const mjcf_error *error)
 static runner *import(const mujoco *m, const char *path, runner_status *status, mjcf_error *error) {
   static const int integrator[] = {
       [MJCF_RK4] = mjINT_RK4, [MJCF_EULER] = mjINT_EULER, [MJCF_IMPLICIT] = mjINT_IMPLICIT};
-  if (m->options.rolling == MJCF_ROLLING_CONTACT) {
+  bool contact = m->options.rolling == MJCF_ROLLING_CONTACT;
+  if (m->options.contact_time > 0) {
     *status = RUNNER_UNSUPPORTED;
-    mjcf_fail(error, "rolling: contact is for models made here, %s is ridden rolling exactly",
-              path);
+    mjcf_fail(error, "solref is for models made here, %s has contacts of its own", path);
     return NULL;
   }
-  runner *run = runner_import(path, status, error);
+  runner *run =
+      contact ? runner_import_as_is(path, status, error) : runner_import(path, status, error);
   if (!run) return NULL;
   runner_model(run)->opt.integrator = integrator[m->options.integrator];
   runner_model(run)->opt.timestep = m->options.timestep;

@@ -188,6 +188,54 @@ static void test_ridden_without_an_edit(void **state) {
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) check_instant(paths[i], &at[k]);
 }
 
+static int keep_last(const runner_sample *sample, void *user) {
+  runner_sample *last = user;
+  *last = *sample;
+  return 0;
+}
+
+// On the contacts that its author gave it: cylinders 2 cm wide as wheels, which slip a little,
+// whose middle is a little off the ground, and which carry the whole weight.
+static void test_ridden_on_its_own_contacts(void **state) {
+  (void)state;
+  runner_status status;
+  runner_sample last;
+  runner_ride_result result;
+  mjcf_error error = {""};
+  runner *r = runner_import_as_is(SOMEBODYS, &status, &error);
+  if (!r) fail_msg("%s", error.text);
+  runner_model(r)->opt.timestep = 1e-3;
+  const bike_state start = {.speed = 5, .lean_rate = 0.1};
+  assert_int_equal(runner_start(r, &start, &error), RUNNER_OK);
+  runner_ride_def def = runner_default_ride_def();
+  def.duration = 1;
+  def.on_sample = keep_last;
+  def.user = &last;
+  status = runner_ride(&result, r, &def, &error);
+  if (status != RUNNER_OK) fail_msg("%s", error.text);
+  assert_true(result.complete);
+  assert_near(last.row.x, 5, 0.1);
+  double slip = fmax(last.slip[0], last.slip[1]),
+         off = fmax(fabs(last.height[0]), fabs(last.height[1]));
+  assert_true(slip > 1e-9 && slip < 0.1);
+  assert_true(off > 1e-9 && off < 0.02);
+  double weight = 0, carried = last.row.rear_normal + last.row.front_normal;
+  for (int i = 0; i < runner_model(r)->nbody; i++) weight += 9.81 * runner_model(r)->body_mass[i];
+  assert_near(carried, weight, 0.05 * weight);
+  runner_free(r);
+}
+
+// What its marker makes to roll is not asked to do otherwise.
+static void test_marked_model_is_not_ridden_on_contacts(void **state) {
+  (void)state;
+  runner_status status;
+  mjcf_error error = {""};
+  assert_null(
+      runner_import_as_is(BICYCLE_SOURCE_DIR "/model/roadster/roadster.xml", &status, &error));
+  assert_int_equal(runner_exit_code(status), 2);
+  assert_non_null(strstr(error.text, "rolling_discs"));
+}
+
 //---------------------------------- refusals ------------------------------------------------------
 
 // The text of fork_first.xml with one piece exchanged.
@@ -262,6 +310,8 @@ int main(void) {
       cmocka_unit_test(test_somebodys_bicycle),
       cmocka_unit_test(test_fork_first),
       cmocka_unit_test(test_ridden_without_an_edit),
+      cmocka_unit_test(test_ridden_on_its_own_contacts),
+      cmocka_unit_test(test_marked_model_is_not_ridden_on_contacts),
       cmocka_unit_test(test_refusals_say_why),
       cmocka_unit_test(test_missing_file),
   };
