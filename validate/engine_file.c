@@ -2,7 +2,8 @@
 // The file engine: a ride that any other simulator has recorded in a CSV file.
 //
 // Nothing is interpolated: the file must hold a row at each of the scenario's times. Rows between
-// are passed over; a file that ends before the ride does is a ride that ended.
+// are passed over; a file that ends before the ride does is a ride that ended. The file is read
+// row by row, all of it, so that its length costs time alone.
 #include "engine.h"
 
 #include "files/csv.h"
@@ -25,7 +26,7 @@ typedef struct source {
 
 typedef struct recording {
   char path[ENGINE_PATH_SIZE];
-  bike_csv csv;
+  bike_csv_reader reader; // before its first row, or closed: the next ride opens the file again
   source time;
   source signals[TRACE_SIGNAL_COUNT];
   int signal_count;
@@ -33,21 +34,21 @@ typedef struct recording {
 
 static void free_recording(void *instance) {
   recording *r = instance;
-  bike_csv_free(&r->csv);
+  bike_csv_close(&r->reader);
   free(r);
 }
 
 // "a, b, c" of the file's columns, for the message.
-static void list_columns(char *out, size_t size, const bike_csv *csv) {
+static void list_columns(char *out, size_t size, const bike_csv_header *header) {
   size_t used = 0;
   out[0] = '\0';
-  for (int i = 0; i < csv->columns && used < size; i++)
-    used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : "", csv->name[i]);
+  for (int i = 0; i < header->columns && used < size; i++)
+    used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : "", header->name[i]);
 }
 
 static term_exit no_column(const recording *r, const char *column, const char *signal, problem *p) {
   char all[400];
-  list_columns(all, sizeof all, &r->csv);
+  list_columns(all, sizeof all, &r->reader.header);
   return problem_set(p, TERM_USAGE, "%s: there is no column '%s' for '%s'; there are: %s", r->path,
                      column, signal, all);
 }
@@ -56,7 +57,8 @@ static term_exit no_column(const recording *r, const char *column, const char *s
 static term_exit map_columns(recording *r, const engine_choice *choice, problem *p) {
   for (int i = 0; i < choice->column_count; i++) {
     const engine_column *c = &choice->columns[i];
-    source s = {bike_csv_column(&r->csv, c->column), c->scale, trace_find_signal(c->signal)};
+    source s = {bike_csv_column(&r->reader.header, c->column), c->scale,
+                trace_find_signal(c->signal)};
     if (s.column < 0) return no_column(r, c->column, c->signal, p);
     if (s.signal)
       r->signals[r->signal_count++] = s;
@@ -69,13 +71,13 @@ static term_exit map_columns(recording *r, const engine_choice *choice, problem 
 // Without a map: the names of `bicycle ride`, as many as are there.
 static void take_own_names(recording *r) {
   for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
-    int column = bike_csv_column(&r->csv, trace_signals[i].name);
+    int column = bike_csv_column(&r->reader.header, trace_signals[i].name);
     if (column >= 0) r->signals[r->signal_count++] = (source){column, 1, &trace_signals[i]};
   }
 }
 
 static term_exit find_columns(recording *r, const engine_choice *choice, problem *p) {
-  r->time = (source){bike_csv_column(&r->csv, "time"), 1, NULL};
+  r->time = (source){bike_csv_column(&r->reader.header, "time"), 1, NULL};
   term_exit code = TERM_DONE;
   if (choice->column_count)
     code = map_columns(r, choice, p);
@@ -87,21 +89,10 @@ static term_exit find_columns(recording *r, const engine_choice *choice, problem
   return TERM_DONE;
 }
 
-static double value_at(const recording *r, size_t row, const source *s) {
-  return r->csv.value[row * (size_t)r->csv.columns + (size_t)s->column] * s->scale;
-}
-
-static term_exit check_time(const recording *r, problem *p) {
-  if (r->csv.rows < 2)
-    return problem_set(p, TERM_USAGE, "%s: a ride needs two rows at least, there %s %zu", r->path,
-                       r->csv.rows == 1 ? "is" : "are", r->csv.rows);
-  for (size_t k = 1; k < r->csv.rows; k++) {
-    double before = value_at(r, k - 1, &r->time), now = value_at(r, k, &r->time);
-    if (!(now > before))
-      return problem_set(p, TERM_USAGE, "%s:%d: %s: the time does not rise: %.9g s after %.9g s",
-                         r->path, r->csv.line[k], r->csv.name[r->time.column], now, before);
-  }
-  return TERM_DONE;
+static term_exit open_file(recording *r, problem *p) {
+  bike_file_error error;
+  int code = bike_csv_open(&r->reader, r->path, &error);
+  return code == BIKE_OK ? TERM_DONE : problem_set(p, term_exit_of(code), "%s", error.text);
 }
 
 static void *create(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
@@ -112,12 +103,9 @@ static void *create(const bike_bicycle *bicycle, const engine_choice *choice, te
     *code = problem_memory(p);
     return NULL;
   }
-  bike_file_error error;
   snprintf(r->path, sizeof r->path, "%s", choice->file);
-  int read = bike_csv_read(&r->csv, r->path, &error);
-  *code = read == BIKE_OK ? find_columns(r, choice, p)
-                          : problem_set(p, term_exit_of(read), "%s", error.text);
-  if (*code == TERM_DONE) *code = check_time(r, p);
+  *code = open_file(r, p);
+  if (*code == TERM_DONE) *code = find_columns(r, choice, p);
   if (*code == TERM_DONE) return r;
   free_recording(r);
   return NULL;
@@ -127,50 +115,95 @@ static void version(char out[ENGINE_VERSION_SIZE]) {
   snprintf(out, ENGINE_VERSION_SIZE, "%s", "a recorded ride");
 }
 
-static void fill_row(trace_row *out, const recording *r, size_t row, double time) {
-  *out = (trace_row){0};
+//---------------------------------- playing -------------------------------------------------------
+
+// A ride under way: what is left of the file.
+typedef struct playing {
+  recording *r;
+  trace *out;
+  const engine_ride *asked;
+  double numbers[BIKE_CSV_COLUMNS]; // the row last read
+  double time, before;              // s  of it, and of the one before
+  long rows;                        //    read so far
+  long next, last;                  //    samples: the one waited for, and the ride's last
+  problem gap;                      //    the first sample that the file passes over; empty: none
+} playing;
+
+static double value_of(const playing *g, const source *s) {
+  return g->numbers[s->column] * s->scale;
+}
+
+static term_exit record(playing *g) {
+  trace_row row = {0};
   for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
     double none = NAN;
-    memcpy((char *)out + trace_signals[i].offset, &none, sizeof none);
+    memcpy((char *)&row + trace_signals[i].offset, &none, sizeof none);
   }
-  out->sample.time = time;
-  for (int i = 0; i < r->signal_count; i++) {
-    double value = value_at(r, row, &r->signals[i]);
-    memcpy((char *)out + r->signals[i].signal->offset, &value, sizeof value);
+  row.sample.time = (double)g->next * g->asked->sample;
+  for (int i = 0; i < g->r->signal_count; i++) {
+    double value = value_of(g, &g->r->signals[i]);
+    memcpy((char *)&row + g->r->signals[i].signal->offset, &value, sizeof value);
   }
+  g->next++;
+  return trace_add(g->out, &row) ? TERM_DONE : TERM_INVALID;
 }
 
-static term_exit gap(const recording *r, size_t row, double time, problem *p) {
-  return problem_set(p, TERM_USAGE,
-                     "%s:%d: there is no row at %.9g s: %.9g s follows %.9g s (rows are needed at "
-                     "every sample of the scenario)",
-                     r->path, r->csv.line[row], time, value_at(r, row, &r->time),
-                     row ? value_at(r, row - 1, &r->time) : NAN);
+static void note_gap(playing *g) {
+  if (*g->gap.text) return;
+  problem_set(&g->gap, TERM_USAGE,
+              "%s:%ld: there is no row at %.9g s: %.9g s follows %.9g s (rows are needed at every "
+              "sample of the scenario)",
+              g->r->path, g->r->reader.line, (double)g->next * g->asked->sample, g->time,
+              g->rows > 1 ? g->before : NAN);
 }
 
-static term_exit play(trace *out, const recording *r, const engine_ride *asked, problem *p) {
-  long rows = (long)floor(asked->duration / asked->sample * (1 + 1e-12));
-  double slack = same_time * asked->sample, time = 0;
-  size_t at = 0;
-  for (long k = 0; k <= rows; k++) {
-    time = (double)k * asked->sample;
-    while (at < r->csv.rows && value_at(r, at, &r->time) < time - slack) at++;
-    if (at == r->csv.rows) {
-      if (k == 0) return gap(r, at - 1, time, p);
-      trace_end(out, false, value_at(r, at - 1, &r->time), NULL, 0);
-      return TERM_DONE;
-    }
-    if (value_at(r, at, &r->time) > time + slack) return gap(r, at, time, p);
-    trace_row row;
-    fill_row(&row, r, at, time);
-    if (!trace_add(out, &row)) return problem_memory(p);
+static term_exit take_row(playing *g, problem *p) {
+  double slack = same_time * g->asked->sample, wanted = (double)g->next * g->asked->sample;
+  g->before = g->time;
+  g->time = value_of(g, &g->r->time);
+  if (g->rows++ > 0 && !(g->time > g->before))
+    return problem_set(p, TERM_USAGE, "%s:%ld: %s: the time does not rise: %.9g s after %.9g s",
+                       g->r->path, g->r->reader.line, g->r->reader.header.name[g->r->time.column],
+                       g->time, g->before);
+  if (g->next > g->last || g->time < wanted - slack) return TERM_DONE;
+  if (g->time > wanted + slack) {
+    note_gap(g);
+    return TERM_DONE; // what is wrong with the rows themselves is told first
   }
-  trace_end(out, true, asked->duration, NULL, 0);
+  if (record(g) != TERM_DONE) return problem_memory(p);
+  double share = wanted / g->asked->duration;
+  if (g->asked->progress && !g->asked->progress(share, g->asked->user))
+    return problem_set(p, TERM_INVALID, "interrupted");
   return TERM_DONE;
 }
 
+static term_exit end(playing *g, problem *p) {
+  if (g->rows < 2)
+    return problem_set(p, TERM_USAGE, "%s: a ride needs two rows at least, there %s %ld",
+                       g->r->path, g->rows == 1 ? "is" : "are", g->rows);
+  if (g->next == 0) note_gap(g);
+  if (*g->gap.text) return problem_set(p, TERM_USAGE, "%s", g->gap.text);
+  bool complete = g->next > g->last;
+  trace_end(g->out, complete, complete ? g->asked->duration : g->time, NULL, 0);
+  return TERM_DONE;
+}
+
+static term_exit play(playing *g, problem *p) {
+  for (;;) {
+    bool found;
+    bike_file_error error;
+    int read = bike_csv_next(g->numbers, &found, &g->r->reader, &error);
+    if (read != BIKE_OK) return problem_set(p, term_exit_of(read), "%s", error.text);
+    if (!found) return end(g, p);
+    term_exit code = take_row(g, p);
+    if (code != TERM_DONE) return code;
+  }
+}
+
 static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
-  const recording *r = instance;
+  recording *r = instance;
+  term_exit code = r->reader.stream ? TERM_DONE : open_file(r, p);
+  if (code != TERM_DONE) return code;
   out->missing = (UINT64_C(1) << TRACE_SIGNAL_COUNT) - 1;
   for (int i = 0; i < r->signal_count; i++)
     out->missing &= ~(UINT64_C(1) << (r->signals[i].signal - trace_signals));
@@ -178,7 +211,11 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
                       trace_has(out, trace_find_signal("front_slip")) &&
                       trace_has(out, trace_find_signal("rear_height")) &&
                       trace_has(out, trace_find_signal("front_height"));
-  return play(out, r, asked, p);
+  playing g = {.r = r, .out = out, .asked = asked};
+  g.last = (long)floor(asked->duration / asked->sample * (1 + 1e-12));
+  code = play(&g, p);
+  bike_csv_close(&r->reader);
+  return code;
 }
 
 const engine engine_file = {

@@ -37,11 +37,11 @@ static bike_input_table *allocate(size_t count) {
 
 static int check_columns(const bike_csv *csv, const char *path, bike_file_error *error) {
   int known = 0;
-  for (int i = 0; i < INPUT_COUNT; ++i) known += bike_csv_column(csv, NAMES[i]) >= 0;
-  if (bike_csv_column(csv, "time") < 0)
+  for (int i = 0; i < INPUT_COUNT; ++i) known += bike_csv_column(&csv->header, NAMES[i]) >= 0;
+  if (bike_csv_column(&csv->header, "time") < 0)
     return bike_message(error, BIKE_ERROR_SYNTAX, "%s: column 'time' is missing", path);
-  for (int i = 0; i < csv->columns && known + 1 < csv->columns; ++i) {
-    const char *name = csv->name[i];
+  for (int i = 0; i < csv->header.columns && known + 1 < csv->header.columns; ++i) {
+    const char *name = csv->header.name[i];
     bool found = strcmp(name, "time") == 0;
     for (int k = 0; k < INPUT_COUNT; ++k) found = found || strcmp(name, NAMES[k]) == 0;
     if (!found)
@@ -56,29 +56,29 @@ static int check_columns(const bike_csv *csv, const char *path, bike_file_error 
 
 static int check_times(const bike_csv *csv, double duration, const char *path,
                        bike_file_error *error) {
-  const int column = bike_csv_column(csv, "time");
+  const int column = bike_csv_column(&csv->header, "time");
   if (csv->rows < 2)
     return bike_message(error, BIKE_ERROR_SYNTAX, "%s: needs at least two rows", path);
   const double *time = csv->value + column;
-  const size_t stride = (size_t)csv->columns;
+  const size_t stride = (size_t)csv->header.columns;
   for (size_t i = 1; i < csv->rows; ++i)
     if (!(time[i * stride] > time[(i - 1) * stride]))
-      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, csv->line[i], "time",
+      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, (int)csv->line[i], "time",
                              "must rise from row to row");
   if (time[0] > 0)
-    return bike_message_at(error, BIKE_ERROR_PARAMETER, path, csv->line[0], "time",
+    return bike_message_at(error, BIKE_ERROR_PARAMETER, path, (int)csv->line[0], "time",
                            "must begin at 0 or before");
   const double end = time[(csv->rows - 1) * stride];
   if (end >= duration) return BIKE_OK;
   return bike_message(error, BIKE_ERROR_PARAMETER,
-                      "%s:%d: time: ends at %.9g s, before the ride does at %.9g s", path,
+                      "%s:%ld: time: ends at %.9g s, before the ride does at %.9g s", path,
                       csv->line[csv->rows - 1], end, duration);
 }
 
 static void copy_column(double *out, const bike_csv *csv, const char *name) {
-  const int column = bike_csv_column(csv, name);
+  const int column = bike_csv_column(&csv->header, name);
   for (size_t i = 0; column >= 0 && i < csv->rows; ++i)
-    out[i] = csv->value[i * (size_t)csv->columns + (size_t)column];
+    out[i] = csv->value[i * (size_t)csv->header.columns + (size_t)column];
 }
 
 static bike_input_table *make_table(const bike_csv *csv) {
@@ -86,7 +86,7 @@ static bike_input_table *make_table(const bike_csv *csv) {
   if (!table) return NULL;
   copy_column(table->time, csv, "time");
   for (int i = 0; i < INPUT_COUNT; ++i) copy_column(table->input[i], csv, NAMES[i]);
-  table->has_rider = bike_csv_column(csv, NAMES[RIDER_OFFSET]) >= 0;
+  table->has_rider = bike_csv_column(&csv->header, NAMES[RIDER_OFFSET]) >= 0;
   bike_spline_fit(table->second, table->time, table->input[RIDER_OFFSET], table->count,
                   table->second + table->count);
   return table;

@@ -12,6 +12,9 @@
 
 enum { FIRST_SIZE = 16384 }; // most bicycle files fit; doubled as needed
 
+static const char not_text[] = "control character: this is not a text file";
+static const char not_utf8[] = "this is not UTF-8 text";
+
 static int no_memory(const char *path, bike_file_error *error) {
   return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
 }
@@ -20,7 +23,7 @@ static int too_large(const char *path, size_t limit, bike_file_error *error) {
   return bike_message(error, BIKE_ERROR_FILE, "%s: is larger than %zu bytes", path, limit);
 }
 
-static int system_error(const char *path, int number, bike_file_error *error) {
+int bike_text_system_error(const char *path, int number, bike_file_error *error) {
   return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
 }
 
@@ -42,29 +45,28 @@ static int control_line(const bike_text *text, size_t from) {
   return 0;
 }
 
-// Bytes of the UTF-8 character at `at`, or 0 where there is none. Overlong forms and surrogates
-// pass: they do no harm here.
-static size_t character_size(const bike_text *text, size_t at) {
-  const unsigned char first = (unsigned char)text->data[at];
+// Bytes of the UTF-8 character that begins there, or 0 where there is none. Overlong forms and
+// surrogates pass: they do no harm here.
+static size_t character_size(const char *data, size_t left) {
+  const unsigned char first = (unsigned char)*data;
   const size_t size = first < 0x80   ? 1
                       : first < 0xc2 ? 0
                       : first < 0xe0 ? 2
                       : first < 0xf0 ? 3
                       : first < 0xf5 ? 4
                                      : 0;
-  if (size > text->size - at) return 0;
+  if (size > left) return 0;
   for (size_t k = 1; k < size; ++k)
-    if (((unsigned char)text->data[at + k] & 0xc0) != 0x80) return 0;
+    if (((unsigned char)data[k] & 0xc0) != 0x80) return 0;
   return size;
 }
 
 // libfyaml reads invalid UTF-8 as an empty value and goes on: it must not come that far.
 static int check_utf8(const bike_text *text, const char *path, bike_file_error *error) {
   for (size_t at = 0, size; at < text->size; at += size) {
-    size = character_size(text, at);
+    size = character_size(text->data + at, text->size - at);
     if (!size)
-      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line_at(text, at), NULL,
-                             "this is not UTF-8 text");
+      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line_at(text, at), NULL, not_utf8);
   }
   return BIKE_OK;
 }
@@ -84,11 +86,9 @@ static int read_stream(bike_text *out, FILE *stream, const char *path, size_t li
     out->size += fread(out->data + from, 1, capacity - from - 1, stream);
     out->data[out->size] = '\0';
     const int line = control_line(out, from);
-    if (line)
-      return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line, NULL,
-                             "control character: this is not a text file");
+    if (line) return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line, NULL, not_text);
     if (out->size > limit) return too_large(path, limit, error);
-    if (ferror(stream)) return system_error(path, errno, error);
+    if (ferror(stream)) return bike_text_system_error(path, errno, error);
     if (feof(stream)) return BIKE_OK;
   }
 }
@@ -108,24 +108,42 @@ static bool is_named_pipe(const char *path) {
   return strncmp(path, "/dev/", 5) != 0 && stat(path, &status) == 0 && S_ISFIFO(status.st_mode);
 }
 
+FILE *bike_text_open(const char *path, bike_file_error *error) {
+  struct stat status;
+  if (is_named_pipe(path)) {
+    bike_message(error, BIKE_ERROR_FILE,
+                 "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
+    return NULL;
+  }
+  FILE *stream = fopen(path, "re");
+  int number = errno;
+  if (stream && fstat(fileno(stream), &status) == 0 && !S_ISDIR(status.st_mode)) return stream;
+  if (stream) {
+    number = EISDIR;
+    fclose(stream);
+  }
+  bike_text_system_error(path, number, error);
+  return NULL;
+}
+
+const char *bike_text_objection(const char *data, size_t size) {
+  for (size_t at = 0, step; at < size; at += step) {
+    if (is_control(data[at])) return not_text;
+    step = character_size(data + at, size - at);
+    if (!step) return not_utf8;
+  }
+  return NULL;
+}
+
 int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_error *error) {
   *out = (bike_text){0};
-  if (is_named_pipe(path))
-    return bike_message(error, BIKE_ERROR_FILE,
-                        "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
-  FILE *stream = fopen(path, "re");
-  if (!stream) return system_error(path, errno, error);
+  FILE *stream = bike_text_open(path, error);
   struct stat status;
-  int code = BIKE_OK;
-  if (fstat(fileno(stream), &status) != 0) {
-    code = system_error(path, errno, error);
-  } else if (S_ISDIR(status.st_mode)) {
-    code = system_error(path, EISDIR, error);
-  } else if (S_ISREG(status.st_mode) && (size_t)status.st_size > limit) {
-    code = too_large(path, limit, error);
-  } else {
-    code = read_stream(out, stream, path, limit, error);
-  }
+  if (!stream) return BIKE_ERROR_FILE;
+  bool regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
+  int code = regular && (size_t)status.st_size > limit
+                 ? too_large(path, limit, error)
+                 : read_stream(out, stream, path, limit, error);
   fclose(stream);
   if (!code) code = check_utf8(out, path, error);
   if (code)

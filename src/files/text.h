@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text files as a whole.
+// Text files: as a whole, and what a reader of pieces needs.
 #ifndef FILES_TEXT_H
 #define FILES_TEXT_H
 
 #include <bicycle/file.h>
 #include <stddef.h>
+#include <stdio.h>
 
 // A UTF-8 text file in memory, a byte order mark left out.
 typedef struct bike_text {
@@ -18,5 +19,15 @@ typedef struct bike_text {
 int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_error *error);
 
 void bike_text_free(bike_text *text);
+
+// Opens a file for reading; folders and named pipes are refused. NULL is BIKE_ERROR_FILE.
+FILE *bike_text_open(const char *path, bike_file_error *error);
+
+// What keeps bytes from being UTF-8 text without control characters; NULL: nothing. No character
+// may be cut at their end.
+const char *bike_text_objection(const char *data, size_t size);
+
+// BIKE_ERROR_FILE with "path: " and what the number of an errno means.
+int bike_text_system_error(const char *path, int number, bike_file_error *error);
 
 #endif

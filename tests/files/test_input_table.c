@@ -44,6 +44,8 @@ static void wrong_files(void **state) {
       {"time,steer_torque\n0,1\n\n9,1\n", BIKE_ERROR_PARAMETER, ":4: time: ends at 9 s"},
       {"time,steer_torque\n1,1\n10,1\n", BIKE_ERROR_PARAMETER, ":2: time: must begin at 0"},
       {"time\xff,steer_torque\n", BIKE_ERROR_SYNTAX, ":1: this is not UTF-8 text"},
+      {"time,steer_torque\n0,1\n1,1\xc3\n", BIKE_ERROR_SYNTAX, ":3: this is not UTF-8 text"},
+      {"time,steer_torque\n0,1\n1,\x01\n", BIKE_ERROR_SYNTAX, ":3: control character"},
   };
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
     const char *path = scratch_write("wrong.csv", files[i].text);
@@ -58,6 +60,57 @@ static void wrong_files(void **state) {
   }
   bike_input_table *table;
   assert_int_equal(bike_input_table_create(&table, scratch_folder(), 1, NULL), BIKE_ERROR_FILE);
+}
+
+// Lines are read in pieces of 64 kB: wherever one ends, rows are whole, and a line that never ends
+// is refused.
+static void long_files(void **state) {
+  (void)state;
+  enum { ROWS = 40000 };
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  fputs("time,steer_torque\n", stream);
+  for (int i = 0; i < ROWS; ++i) fprintf(stream, "%d,%d.%0*d\n", i, i, 1 + i % 37, 0);
+  fclose(stream);
+  bike_input_table *table = create(text, 1);
+  free(text);
+  size_t count;
+  assert_non_null(bike_input_table_times(table, &count));
+  assert_int_equal(count, ROWS);
+  for (int i = 0; i < ROWS; i += 7) {
+    bike_input input;
+    bike_input_table_at(i, &input, table);
+    assert_near(input.steer_torque, i, 1e-9);
+  }
+  bike_input_table_free(table);
+
+  char *line = calloc(1, 70000);
+  assert_non_null(line);
+  memset(line, ' ', 69999);
+  memcpy(line, "time,steer_torque\n0,1\n", 22);
+  bike_file_error error = {""};
+  assert_int_equal(bike_input_table_create(&table, scratch_write("long.csv", line), 1, &error),
+                   BIKE_ERROR_SYNTAX);
+  assert_non_null(strstr(error.text, ":3: the line is too long"));
+  free(line);
+}
+
+// A file without an end, and one of more numbers than fit.
+static void endless_files(void **state) {
+  (void)state;
+  bike_input_table *table;
+  bike_file_error error = {""};
+  assert_int_equal(bike_input_table_create(&table, "/dev/zero", 1, &error), BIKE_ERROR_SYNTAX);
+  assert_non_null(strstr(error.text, "/dev/zero:1: "));
+  const char *path = scratch_write("many.csv", "time,steer_torque\n");
+  FILE *stream = fopen(path, "ae");
+  assert_non_null(stream);
+  for (int i = 0; i <= 8 << 20; ++i) fprintf(stream, "%d,0\n", i); // twice that many numbers
+  fclose(stream);
+  assert_int_equal(bike_input_table_create(&table, path, 1, &error), BIKE_ERROR_FILE);
+  assert_non_null(strstr(error.text, "more than 16777216 numbers"));
+  assert_null(table);
 }
 
 static void torques_are_linear(void **state) {
@@ -142,7 +195,8 @@ static void spline_order(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(wrong_files), cmocka_unit_test(torques_are_linear),
+      cmocka_unit_test(wrong_files),       cmocka_unit_test(long_files),
+      cmocka_unit_test(endless_files),     cmocka_unit_test(torques_are_linear),
       cmocka_unit_test(spline_of_a_cubic), cmocka_unit_test(spline_order)};
   return cmocka_run_group_tests(tests, scratch_create, scratch_remove);
 }
