@@ -217,7 +217,7 @@ static void test_foreign_contacts(void **state) {
   assert_true(support_find(c, "L2", "lean", "max")->value > 1e-6);
   assert_true(support_find(c, "L3", "mujoco.rear_slip", "max")->value > 1e-9);
   support_close(f);
-  char *wrong = support_replace(text, "contact", "contact, solref: 0.01");
+  char *wrong = support_replace(text, "rolling: contact", "rolling: contact, solref: 0.01");
   scenario s;
   comparison refused;
   support_read_scenario(&s, support_home, wrong);
