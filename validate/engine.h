@@ -141,7 +141,8 @@ engine_choice engine_default_choice(const engine *e);
 // Index of an option, or -1.
 int engine_option_index(const engine *e, const char *name);
 
-// Seconds on the clock by which engines time themselves.
+// Seconds on the clock by which engines time themselves, and of the processor by this thread.
 double engine_clock(void);
+double engine_processor_clock(void);
 
 #endif

@@ -31,8 +31,16 @@ int engine_option_index(const engine *e, const char *name) {
   return -1;
 }
 
-double engine_clock(void) {
+static double read_clock(clockid_t id) {
   struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(id, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double engine_clock(void) {
+  return read_clock(CLOCK_MONOTONIC);
+}
+
+double engine_processor_clock(void) {
+  return read_clock(CLOCK_THREAD_CPUTIME_ID);
 }

@@ -63,6 +63,7 @@ static term_exit ride_point(comparison *c, rides *r, int index, problem *p) {
     point->steps = t.steps;
     point->evaluations = t.evaluations;
     point->wall_time = t.wall_time;
+    point->cpu_time = t.cpu_time;
     study->complete = study->complete && t.complete;
     if (!take_ride(r, index, &t)) code = problem_memory(p);
   } else {

@@ -22,12 +22,18 @@ static double lean_error(const comparison *c, const trace *t) {
 
 enum { MOST_REPEATS = 100 };
 
+// Sorts.
+static double median_of(double *seconds, int count) {
+  qsort(seconds, (size_t)count, sizeof *seconds, rising);
+  return (seconds[(count - 1) / 2] + seconds[count / 2]) / 2;
+}
+
 // Rides again and again. A setting that cannot be ridden (a step too coarse) is left out.
 static term_exit add_run(comparison *c, int side, const engine_choice *choice, const char *setting,
                          problem *p) {
   study_cost *study = &c->study.cost;
   study_run *run = &study->run[study->count];
-  double seconds[MOST_REPEATS];
+  double seconds[MOST_REPEATS], processor[MOST_REPEATS];
   int repeats = study->repeats < MOST_REPEATS ? study->repeats : MOST_REPEATS;
   *run = (study_run){.side = side};
   snprintf(run->setting, sizeof run->setting, "%s", setting);
@@ -35,16 +41,17 @@ static term_exit add_run(comparison *c, int side, const engine_choice *choice, c
     trace t = {0};
     term_exit code = comparison_ride_also(&t, c, choice, &c->scenario->start, p);
     seconds[i] = t.wall_time;
+    processor[i] = t.cpu_time;
     run->steps = t.steps;
     run->evaluations = t.evaluations;
     run->error = lean_error(c, &t);
     trace_clear(&t);
     if (code != TERM_DONE) return code;
   }
-  qsort(seconds, (size_t)repeats, sizeof *seconds, rising);
+  run->median = median_of(seconds, repeats);
+  run->cpu = median_of(processor, repeats);
   run->low = seconds[0];
   run->high = seconds[repeats - 1];
-  run->median = (seconds[(repeats - 1) / 2] + seconds[repeats / 2]) / 2;
   study->count++;
   return TERM_DONE;
 }

@@ -111,28 +111,65 @@ static void print_legend(FILE *stream, const json_t *block) {
   fputs("</p>\n", stream);
 }
 
-// Block "cost": [{engine, label, points: [{cost, error}]}], cost in right-hand sides, which the
-// same program needs on every machine.
-void report_curves_cost(FILE *stream, const json_t *entry) {
-  const json_t *block = json_object_get(entry, "cost"), *c;
-  report_axis x = {"right-hand sides evaluated", true, NAN, NAN}, y = {"error", true, NAN, NAN};
+// Points of an engine: cost in right-hand sides, which the same program needs on every machine,
+// from the block "cost": [{engine, label, points: [{cost, error}]}].
+static void load_evaluations(study *out, const comparison *c, const json_t *player, int side) {
+  (void)c;
+  (void)side;
+  load(out, json_object_get(player, "points"), "cost", "error");
+}
+
+static void add_point(study *s, double x, double y) {
+  if (s->count == MOST_POINTS) return;
+  s->x[s->count] = x;
+  s->y[s->count++] = y;
+}
+
+// The same points with what they took on this machine; in the document that stands among timings.
+static void load_seconds(study *out, const comparison *c, const json_t *player, int side) {
+  const study_cost *cost = &c->study.cost;
+  const study_convergence *convergence = &c->study.convergence;
+  (void)player;
+  out->count = 0;
+  for (int i = 0; i < cost->count; i++)
+    if (cost->run[i].side == side) add_point(out, cost->run[i].cpu, cost->run[i].error);
+  for (int i = 0; side == CANDIDATE && i < convergence->count; i++)
+    add_point(out, convergence->point[i].cpu_time, convergence->point[i].error[0]);
+  sort(out);
+}
+
+typedef void load_points(study *out, const comparison *c, const json_t *player, int side);
+
+static void draw_cost(FILE *stream, const comparison *c, const json_t *block, load_points *points,
+                      const char *title, const char *label) {
+  const json_t *player;
+  report_axis x = {label, true, NAN, NAN}, y = {"error", true, NAN, NAN};
   study s;
-  size_t points = 0;
-  for (size_t i = 0; (c = item(block, i)); i++) {
-    load(&s, json_object_get(c, "points"), "cost", "error");
+  size_t total = 0;
+  for (int i = 0; (player = item(block, (size_t)i)); i++) {
+    points(&s, c, player, i);
     report_axis_include(&x, s.x, s.count);
     report_axis_include(&y, s.y, s.count);
-    points += s.count;
+    total += s.count;
   }
-  if (points == 0) return;
-  fputs("<h3>Work and precision</h3>\n<div class=plots>\n", stream);
-  report_plot p = report_plot_begin(stream, "Error over cost", "error over cost", x, y);
-  for (size_t i = 0; (c = item(block, i)); i++) {
-    load(&s, json_object_get(c, "points"), "cost", "error");
-    report_plot_line(&p, style_of(i), s.x, s.y, s.count);
-    report_plot_dots(&p, style_of(i), s.x, s.y, s.count);
+  if (total == 0) return;
+  report_plot p = report_plot_begin(stream, title, title, x, y);
+  for (int i = 0; (player = item(block, (size_t)i)); i++) {
+    points(&s, c, player, i);
+    report_plot_line(&p, style_of((size_t)i), s.x, s.y, s.count);
+    report_plot_dots(&p, style_of((size_t)i), s.x, s.y, s.count);
   }
   report_plot_end(&p);
+}
+
+void report_curves_cost(FILE *stream, const comparison *c, const json_t *entry) {
+  const json_t *block = json_object_get(entry, "cost");
+  if (!item(block, 0)) return;
+  fputs("<h3>Work and precision</h3>\n<div class=plots>\n", stream);
+  draw_cost(stream, c, block, load_evaluations, "Error over evaluations",
+            "right-hand sides evaluated");
+  draw_cost(stream, c, block, load_seconds, "Error over processor time, on this machine",
+            "processor time, s");
   fputs("</div>\n", stream);
   print_legend(stream, block);
 }

@@ -109,7 +109,7 @@ static bool print_pictures(FILE *stream, const comparison *c, const json_t *s) {
     fputs("<p class=dim>There is no ride to show.</p>\n", stream);
   }
   report_curves_convergence(stream, s);
-  report_curves_cost(stream, s);
+  report_curves_cost(stream, c, s);
   return done;
 }
 

@@ -132,19 +132,26 @@ void report_add_timings(json_t *ride, const comparison *c) {
   const study_convergence *convergence = &c->study.convergence;
   const study_cost *cost = &c->study.cost;
   double duration = c->scenario->duration;
-  json_t *points = json_array(), *runs = json_array();
-  for (int i = 0; i < convergence->count; i++)
+  json_t *points = json_array(), *processor = json_array(), *runs = json_array();
+  for (int i = 0; i < convergence->count; i++) {
     json_array_append_new(points, term_json_number(convergence->point[i].wall_time));
+    json_array_append_new(processor, term_json_number(convergence->point[i].cpu_time));
+  }
   for (int i = 0; i < cost->count; i++) {
     const study_run *run = &cost->run[i];
     json_array_append_new(
-        runs, json_pack("{s:o, s:o, s:o, s:o, s:o}", "median", term_json_number(run->median), "low",
-                        term_json_number(run->low), "high", term_json_number(run->high),
-                        "real_time_factor", term_json_number(duration / run->median),
-                        "steps_per_second", term_json_number((double)run->steps / run->median)));
+        runs, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "median", term_json_number(run->median),
+                        "low", term_json_number(run->low), "high", term_json_number(run->high),
+                        "cpu", term_json_number(run->cpu), "real_time_factor",
+                        term_json_number(duration / run->median), "steps_per_second",
+                        term_json_number((double)run->steps / run->median)));
   }
-  if (convergence->count) json_object_set(ride, "convergence", points);
+  if (convergence->count) {
+    json_object_set(ride, "convergence", points);
+    json_object_set(ride, "convergence_cpu", processor);
+  }
   if (cost->count) json_object_set(ride, "cost", runs);
   json_decref(points);
+  json_decref(processor);
   json_decref(runs);
 }

@@ -25,8 +25,8 @@ enum {
 // Sizes from 1e-24, far below the rounding of anything shown, to 1e12.
 static const double log_low = -24, log_high = 12;
 
-// Signals of the reference; the candidate follows from their residuals. What can be computed from
-// others (normal forces, friction) is left to the page.
+// Signals of the reference, as far as it has them; the candidate follows from their residuals. What
+// can be computed from others (normal forces, friction) is left to the page.
 static const char *const signals[] = {"x",
                                       "y",
                                       "yaw",
@@ -61,9 +61,15 @@ typedef struct pack {
   bool lost;
 } pack;
 
+// Rows that both rides together take.
+static size_t count_rows(const comparison *c) {
+  size_t a = c->side[REFERENCE].trace.count, b = c->side[CANDIDATE].trace.count;
+  return a > b ? a : b;
+}
+
 size_t report_pack_stride(const report *r) {
   size_t rows = 0;
-  for (size_t i = 0; i < r->count; i++) rows += r->comparisons[i].side[REFERENCE].trace.count;
+  for (size_t i = 0; i < r->count; i++) rows += count_rows(&r->comparisons[i]);
   return rows / ROW_BUDGET + 1;
 }
 
@@ -98,7 +104,12 @@ static uint32_t linear_code(double value, double low, double scale) {
   return code > LINEAR_TOP ? LINEAR_TOP : (uint32_t)code;
 }
 
-static void add_linear(pack *p, const report_series *s, const trace_signal *signal) {
+static json_int_t kept(const pack *p, size_t rows) {
+  return (json_int_t)((rows + p->stride - 1) / p->stride);
+}
+
+static void add_linear(pack *p, const report_series *s, const trace_signal *signal,
+                       const size_t ends[2]) {
   double low = 0, high = 0;
   report_series_range(s, &low, &high);
   double scale = high / (LINEAR_TOP - 1) - low / (LINEAR_TOP - 1); // quotients do not overflow
@@ -114,7 +125,9 @@ static void add_linear(pack *p, const report_series *s, const trace_signal *sign
     before = code;
     for (size_t plane = 0; plane < 3; plane++) out[plane * p->rows + k] = zigzag >> 8 * plane & 255;
   }
-  list(p, signal->name, signal->unit, "reference", "linear", low, scale);
+  list(p, signal->name, signal->unit, "signal", "linear", low, scale);
+  json_object_set_new(json_array_get(p->columns, json_array_size(p->columns) - 1), "ends",
+                      json_pack("[I, I]", kept(p, ends[0]), kept(p, ends[1])));
 }
 
 static uint32_t log_code(double value) {
@@ -150,10 +163,11 @@ static void add_log(pack *p, const report_series *s, const char *name, const cha
 static void add_signals(pack *p, const comparison *c) {
   for (int i = 0; i < SIGNAL_COUNT; i++) {
     const trace_signal *signal = trace_find_signal(signals[i]);
-    report_series value = report_series_of(c, REFERENCE, signal);
+    size_t ends[2];
+    report_series value = report_series_either(c, signal, ends);
     report_series residual = report_series_residual(c, signal);
     p->lost |= !value.value || !residual.value;
-    add_linear(p, &value, signal);
+    add_linear(p, &value, signal, ends);
     add_log(p, &residual, signal->name, signal->unit, "residual");
     report_series_clear(&value);
     report_series_clear(&residual);
@@ -194,18 +208,33 @@ static bool weight_place(double out[3], const bike_bicycle *b) {
   return rider;
 }
 
+// Of a wheel that rolls alone nobody knows a pitch.
+static bool is_wheel(const comparison *c) {
+  const trace_signal *pitch = trace_find_signal("pitch");
+  return !trace_has(&c->side[REFERENCE].trace, pitch) &&
+         !trace_has(&c->side[CANDIDATE].trace, pitch);
+}
+
+static double wheel_weight(const bike_bicycle *b) {
+  double mass = 0;
+  for (int i = 0; i < b->part_count; i++)
+    if (b->parts[i].assembly == BIKE_REAR_WHEEL) mass += b->parts[i].mass;
+  return mass * b->gravity;
+}
+
 // Lengths of the upright bicycle for the replay: (forward of the rear contact, left, up).
 static json_t *geometry_json(const comparison *c) {
   const bike_bicycle *b = &c->scenario->bicycle;
   bike_upright upright;
   double weight[3] = {0};
   if (bike_upright_position(&upright, &b->geometry) != 0) return json_null();
-  bool rider = weight_place(weight, b);
-  return json_pack("{s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:b, s:f}", "tilt", upright.tilt,
-                   "wheelbase", upright.wheelbase, "trail", upright.trail, "rear_radius",
-                   b->geometry.R_r, "front_radius", b->geometry.R_f, "rear_hub",
+  bool rider = weight_place(weight, b), wheel = is_wheel(c);
+  return json_pack("{s:b, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:b, s:f}", "wheel_only", wheel,
+                   "tilt", upright.tilt, "wheelbase", upright.wheelbase, "trail", upright.trail,
+                   "rear_radius", b->geometry.R_r, "front_radius", b->geometry.R_f, "rear_hub",
                    vector_json(upright.rear_hub), "front_hub", vector_json(upright.front_hub),
-                   "weight", vector_json(weight), "rider", rider, "total_weight", c->weight);
+                   "weight", vector_json(weight), "rider", rider, "total_weight",
+                   wheel ? wheel_weight(b) : c->weight);
 }
 
 // Base64 of the zlib stream of some bytes.
@@ -237,7 +266,7 @@ static bool write_object(FILE *stream, const pack *p, const comparison *c) {
 }
 
 bool report_pack(FILE *stream, const comparison *c, size_t stride) {
-  size_t count = c->side[REFERENCE].trace.count;
+  size_t count = count_rows(c);
   pack p = {.rows = (count + stride - 1) / stride, .stride = stride, .columns = json_array()};
   add_signals(&p, c);
   for (int i = 0; i < 2; i++) add_side(&p, c, i);

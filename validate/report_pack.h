@@ -2,13 +2,14 @@
 // Traces made small enough to stand in report.html; web/decode.js reads them back.
 //
 // One JSON object: {rows, step (s), stride, geometry, columns: [{name, unit, side, coding, low,
-// scale}], bytes}. `bytes` is base64 of zlib of the columns one after the other:
+// scale, ends}], bytes}. `bytes` is base64 of zlib of the columns one after the other:
 //   linear   24-bit steps between the smallest (`low`) and the largest value, as second
 //   differences,
 //            zigzag coded, three planes of bytes, low bytes first; the code 2^24 - 1 is no number
 //   log      sign and size to 0.26 % in 16 bits, two planes: 0 is exactly zero, 32767 no number
-// `side` is "reference" (a signal), "residual" (candidate - reference, computed in double) or an
-// engine's label (energy balance, slip, height).
+// `side` is "signal" (the reference's, and from the first of its `ends` on the candidate's, which
+// is known up to the second), "residual" (candidate - reference, computed in double) or an engine's
+// label (energy balance, slip, height).
 #ifndef VALIDATE_REPORT_PACK_H
 #define VALIDATE_REPORT_PACK_H
 

@@ -17,6 +17,16 @@ report_series report_series_of(const comparison *c, int side, const trace_signal
   return s;
 }
 
+report_series report_series_either(const comparison *c, const trace_signal *signal,
+                                   size_t ends[2]) {
+  for (int i = 0; i < 2; i++)
+    ends[i] = trace_has(&c->side[i].trace, signal) ? c->side[i].trace.count : 0;
+  report_series s = of_size(ends[0] > ends[1] ? ends[0] : ends[1]);
+  for (size_t k = 0; k < s.count; k++)
+    s.value[k] = trace_value(&c->side[k < ends[0] ? REFERENCE : CANDIDATE].trace.rows[k], signal);
+  return s;
+}
+
 report_series report_series_residual(const comparison *c, const trace_signal *signal) {
   const trace_row *a = c->side[REFERENCE].trace.rows, *b = c->side[CANDIDATE].trace.rows;
   report_series s = of_size(comparison_rows(c));

@@ -14,6 +14,10 @@ typedef struct report_series {
 // A signal of one side; an empty series when out of memory. Free each with report_series_clear.
 report_series report_series_of(const comparison *c, int side, const trace_signal *signal);
 
+// A signal of the reference and, where that has no row or does not know it, of the candidate; as
+// long as the longer ride. `ends`: up to which row each side knows it.
+report_series report_series_either(const comparison *c, const trace_signal *signal, size_t ends[2]);
+
 // Candidate minus reference, of the rows that both have.
 report_series report_series_residual(const comparison *c, const trace_signal *signal);
 

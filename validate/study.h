@@ -48,7 +48,7 @@ const char *study_verdict_string(study_verdict v);
 typedef struct study_point {
   double step;                 // s
   long steps, evaluations;     //
-  double wall_time;            // s
+  double wall_time, cpu_time;  // s
   double error[STUDY_SIGNALS]; // rad  largest |candidate - reference|
 } study_point;
 
@@ -92,7 +92,8 @@ typedef struct study_run {
   int side;                 // 0: reference, 1: candidate
   char setting[64];         // "rtol 1e-10", "timestep 0.001"
   long steps, evaluations;  //
-  double median, low, high; // s
+  double median, low, high; // s    elapsed
+  double cpu;               // s    of a processor, median
   double error;             // rad  largest |lean - that of the reference as asked for|
 } study_run;
 

@@ -24,7 +24,8 @@ typedef struct trace {
   bike_event end_event; // what ended the ride where it is not complete
   long steps;           // of the integrator; 0 of an engine that does not say
   long evaluations;     // of the right-hand sides; as steps
-  double wall_time;     // s
+  double wall_time;     // s    of the integrator, elapsed
+  double cpu_time;      // s    of that the time for which it had a processor
 } trace;
 
 // Appends a row; false when out of memory.

@@ -37,7 +37,8 @@ function decodeLog(bytes, at, rows, column) {
   return values;
 }
 
-// A scenario's traces: {rows, step, stride, time, geometry, units, column(side, name)}.
+// A scenario's traces: {rows, step, stride, time, geometry, units, column(side, name),
+// candidate(name), either(name)}. A signal of a side is NaN where that side does not know it.
 async function decodeScenario(element) {
   const packed = JSON.parse(element.textContent);
   const bytes = await inflate(packed.bytes), rows = packed.rows;
@@ -45,37 +46,42 @@ async function decodeScenario(element) {
   let at = 0;
   for (const c of packed.columns) {
     const linear = c.coding === 'linear';
-    columns.set(c.side + '.' + c.name, (linear ? decodeLinear : decodeLog)(bytes, at, rows, c));
+    const values = (linear ? decodeLinear : decodeLog)(bytes, at, rows, c);
+    columns.set(c.side + '.' + c.name, values);
+    if (c.ends) columns.set('reference.' + c.name, values.map((v, k) => k < c.ends[0] ? v : NaN));
     units.set(c.name, c.unit);
     at += (linear ? 3 : 2) * rows;
   }
   if (at !== bytes.length) throw new Error('damaged traces');
-  addForces(columns, units, rows, packed.geometry);
+  for (const c of packed.columns)
+    if (c.ends) columns.set('candidate.' + c.name, candidateOf(c.name, c.ends, columns));
+  addFriction(columns, units);
   const time = Float64Array.from({length: rows}, (_, k) => k * packed.step);
   return {
     rows, time, units, stride: packed.stride, step: packed.step, geometry: packed.geometry,
     column: (side, name) => columns.get(side + '.' + name),
-    candidate(name) {
-      const a = columns.get('reference.' + name), d = columns.get('residual.' + name);
-      return a.map((v, k) => v + d[k]);
-    },
+    candidate: (name) => columns.get('candidate.' + name),
+    either: (name) => columns.get('signal.' + name),
   };
 }
 
+// Where the reference has ended the signal is the candidate's.
+function candidateOf(name, ends, columns) {
+  const signal = columns.get('signal.' + name), residual = columns.get('residual.' + name);
+  return signal.map((v, k) => k >= ends[1] ? NaN : k >= ends[0] ? v : v + residual[k]);
+}
+
 // Friction demand, horizontal over normal force, follows from the forces of both engines.
-function addForces(columns, units, rows) {
+function addFriction(columns, units) {
   for (const wheel of ['rear', 'front']) {
-    const force = ['forward', 'left', 'up'].map((d) => wheel + '_force_' + d);
-    const a = force.map((n) => columns.get('reference.' + n));
-    const d = force.map((n) => columns.get('residual.' + n));
-    const demand = (k, share) => {
-      const f = a.map((v, i) => v[k] + share * d[i][k]);
-      return Math.hypot(f[0], f[1]) / f[2];
+    const demand = (side) => {
+      const [f, l, u] = ['forward', 'left', 'up'].map((d) => columns.get(side + '.' + wheel + '_force_' + d));
+      return u.map((v, k) => Math.hypot(f[k], l[k]) / v);
     };
-    const name = wheel + '_friction';
-    columns.set('reference.' + name, Float64Array.from({length: rows}, (_, k) => demand(k, 0)));
-    columns.set('residual.' + name,
-      Float64Array.from({length: rows}, (_, k) => demand(k, 1) - demand(k, 0)));
+    const name = wheel + '_friction', reference = demand('reference'), candidate = demand('candidate');
+    columns.set('reference.' + name, reference);
+    columns.set('candidate.' + name, candidate);
+    columns.set('residual.' + name, candidate.map((v, k) => v - reference[k]));
     units.set(name, '');
   }
 }

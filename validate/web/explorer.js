@@ -148,7 +148,7 @@ class Explorer {
   residualPlot(name) {
     const largest = this.data.column('reference', name).reduce((m, v) => Math.max(m, Math.abs(v) || 0), 0);
     const unit = this.data.units.get(name), values = this.data.column('residual', name);
-    const silent = values.every((v) => v === 0);
+    const silent = values.some((v) => v === 0) && values.every((v) => v === 0 || Number.isNaN(v));
     return {
       title: 'Difference in ' + name + (unit ? ', ' + unit : '') + (silent ? ': exactly zero throughout' : ''),
       log: true,

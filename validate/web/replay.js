@@ -4,21 +4,29 @@
 class Replay {
   constructor(canvas, group, data) {
     Object.assign(this, {canvas, group, data, azimuth: -0.9, elevation: 0.32, zoom: 1, magnify: 1});
-    this.reference = PLACE.map((n) => data.column('reference', n));
-    this.residual = PLACE.map((n) => data.column('residual', n));
+    // Of the candidate where the reference has ended: there is always something to look at.
+    this.reference = PLACE.map((n) => this.known(n, data.either(n)));
+    this.residual = PLACE.map((n) => this.known(n, data.column('residual', n)));
+    this.has = ['reference', 'candidate'].map((side) => Array.from(data.column(side, 'x'), Number.isFinite));
     this.force = {};
     for (const wheel of ['rear', 'front'])
-      this.force[wheel] = ['forward', 'left', 'up'].map((d) => data.column('reference', wheel + '_force_' + d));
+      this.force[wheel] = ['forward', 'left', 'up'].map((d) => data.either(wheel + '_force_' + d));
     this.retrack();
     group.listen((changed) => { if (changed === 'row') this.request(); });
     this.listen();
     new ResizeObserver(() => this.request()).observe(canvas);
   }
 
+  // A wheel alone has no pitch and no front wheel; nothing of a bicycle is drawn then.
+  known(name, values) {
+    const absent = this.data.geometry.wheel_only && (name === 'pitch' || name === 'front_angle');
+    return absent ? new Float64Array(values.length) : values;
+  }
+
   // The values of PLACE at a row; `share` 0: of the reference, 1: of the candidate.
   place(row, share) {
-    const s = {};
-    PLACE.forEach((name, i) => { s[name] = this.reference[i][row] + (share ? share * this.residual[i][row] : 0); });
+    const s = {}, both = share && this.has[0][row];
+    PLACE.forEach((name, i) => { s[name] = this.reference[i][row] + (both ? share * this.residual[i][row] : 0); });
     return s;
   }
 
@@ -91,7 +99,8 @@ class Replay {
     const a = yaw + this.azimuth + Math.PI, e = this.elevation;
     const back = [Math.cos(a) * Math.cos(e), Math.sin(a) * Math.cos(e), Math.sin(e)];
     const right = unit(cross([0, 0, 1], back)), up = cross(back, right);
-    const size = Math.max(1.8, this.data.geometry.weight[2] + 0.6);
+    const g = this.data.geometry;
+    const size = g.wheel_only ? 3.2 * g.rear_radius : Math.max(1.8, g.weight[2] + 0.6);
     const distance = 6, focus = this.zoom * distance * Math.min(width / (1.5 * size), height / (1.25 * size));
     this.project = (p) => {
       const d = sub(p, target), depth = distance - dot(d, back);
@@ -140,33 +149,36 @@ class Replay {
     const reach = Math.ceil(6 / Math.max(0.5, this.speed() * this.data.step));
     const from = Math.max(0, row - reach), to = Math.min(this.data.rows, row + reach);
     this.tracks.forEach((track, i) => {
-      const color = cssColor(i ? 'cand' : 'ref');
-      this.line(track.rear.slice(from, to), color, 1.5, i ? [5, 4] : []);
-      this.line(track.front.slice(from, to), color, 1, i ? [5, 4] : [2, 3]);
+      const color = cssColor(i ? 'cand' : 'ref'), part = (points) => points.slice(from, to).filter((_, k) => this.has[i][from + k]);
+      this.line(part(track.rear), color, 1.5, i ? [5, 4] : []);
+      if (!this.data.geometry.wheel_only) this.line(part(track.front), color, 1, i ? [5, 4] : [2, 3]);
     });
   }
 
   speed() {
-    const v = this.data.column('reference', 'speed');
+    const v = this.data.either('speed');
     return Math.abs(v[this.group.row]) || 1;
   }
 
   drawBicycle(pose, color, width, dash) {
-    for (const wheel of [pose.rear, pose.front]) {
+    const alone = this.data.geometry.wheel_only;
+    for (const wheel of alone ? [pose.rear] : [pose.rear, pose.front]) {
       this.line(wheel.rim, color, width, dash);
       for (const spoke of wheel.spokes) this.line(spoke, color, 0.6);
     }
+    this.dot(pose.contact, 0.02, color);
+    if (alone) return;
     for (const tube of [...pose.tubes, ...pose.fork]) this.line(tube, color, width, dash);
     this.dot(pose.weight, 0.09, color);
-    this.dot(pose.contact, 0.02, color);
     this.dot(pose.frontContact, 0.02, color);
   }
 
   // Force of the ground on each wheel: half a metre for half the weight.
   drawForces(pose, row, yaw) {
-    const c = Math.cos(yaw), s = Math.sin(yaw);
+    const c = Math.cos(yaw), s = Math.sin(yaw), g = this.data.geometry;
+    const unit = (g.wheel_only ? 2 * g.rear_radius : 1) / g.total_weight; // m/N
     for (const [wheel, at] of [['rear', pose.contact], ['front', pose.frontContact]]) {
-      const [f, l, u] = this.force[wheel].map((v) => v[row] / this.data.geometry.total_weight);
+      const [f, l, u] = this.force[wheel].map((v) => v[row] * unit);
       if (!Number.isFinite(f + l + u)) continue;
       const tip = add(at, [c * f - s * l, s * f + c * l, u]);
       this.line([at, tip], cssColor('third'), 2.5);
@@ -184,16 +196,16 @@ class Replay {
     this.context = this.canvas.getContext('2d');
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.context.clearRect(0, 0, width, height);
-    const row = this.group.row, place = this.place(row, 0), pose = this.pose(row, 0);
+    const row = this.group.row, place = this.place(row, 0), pose = this.pose(row, 0), g = this.data.geometry;
     if (!Number.isFinite(place.x + place.pitch)) return;
-    const centre = times(0.5, add(pose.contact, pose.frontContact));
-    this.aim(add(centre, [0, 0, 0.45 * this.data.geometry.weight[2] + 0.1]), place.yaw, width, height);
+    const centre = g.wheel_only ? pose.contact : times(0.5, add(pose.contact, pose.frontContact));
+    const eye = g.wheel_only ? g.rear_radius : 0.45 * g.weight[2] + 0.1;
+    this.aim(add(centre, [0, 0, eye]), place.yaw, width, height);
     this.drawGround(centre);
     this.drawTracks(row);
     this.drawForces(pose, row, place.yaw);
-    this.drawBicycle(pose, cssColor('ref'), 2.6);
-    if (Number.isFinite(this.residual[0][row]))
-      this.drawBicycle(this.pose(row, this.magnify), cssColor('cand'), 1.8, [6, 3]);
+    if (this.has[0][row]) this.drawBicycle(pose, cssColor('ref'), 2.6);
+    if (this.has[1][row]) this.drawBicycle(this.pose(row, this.magnify), cssColor('cand'), 1.8, [6, 3]);
     this.drawn = row;
   }
 }

@@ -58,7 +58,7 @@ static void expect_fitting(void) {
 static void check_plain(const devtools_view *view, const char *name) {
   open_page(view);
   expect("document.querySelector('h1').textContent.startsWith('Agree')");
-  expect("document.querySelectorAll('.scenario').length === 2");
+  expect("document.querySelectorAll('.scenario').length === 4");
   expect("[...document.querySelectorAll('.scenario')].every((s) => s.offsetHeight > 0)");
   expect("[...document.querySelectorAll('.scenario')].every((s) => "
          "s.querySelectorAll('.static svg').length >= 5)");
@@ -204,6 +204,53 @@ static void test_other_scenario(void **state) {
   picture("convergence");
 }
 
+// Opens a scenario by the link in the overview.
+static void open_scenario(const char *name) {
+  char selector[96], ready[96];
+  open_page(&wide);
+  snprintf(selector, sizeof selector, "#overview a[href='#%s']", name);
+  devtools_point(browser, selector, 0.5, true);
+  snprintf(ready, sizeof ready, "Boolean(explorers.get('%s'))", name);
+  devtools_wait(browser, ready);
+}
+
+// A reference of 3 s and a candidate of 10 s: what is left is the candidate's.
+static void test_longer_candidate_is_shown_whole(void **state) {
+  (void)state;
+  open_scenario("longer");
+  expect(plots_drawn);
+  expect("explorers.get('longer').data.rows === 1001");
+  expect("(() => { const d = explorers.get('longer').data, a = d.column('reference', 'lean'), b = "
+         "d.candidate('lean'); return Number.isFinite(a[300]) && a.slice(301).every(Number.isNaN) "
+         "&& b.every(Number.isFinite) && Math.abs(b[300] - a[300]) < 1e-6 && Math.abs(b[301] - "
+         "b[300]) < 0.01; })()");
+  json_decref(devtools_evaluate(browser, "void explorers.get('longer').group.set('row', 900)"));
+  devtools_wait(browser, "explorers.get('longer').replay.drawn === 900");
+  expect("explorers.get('longer').replay.has[0][900] === false && "
+         "explorers.get('longer').replay.has[1][900] === true");
+  expect_silence();
+  picture("longer");
+}
+
+// A wheel that rolls alone: no bicycle is drawn about it.
+static void test_wheel_alone(void **state) {
+  (void)state;
+  open_scenario("disc");
+  expect(plots_drawn);
+  expect("explorers.get('disc').data.geometry.wheel_only === true");
+  json_decref(devtools_evaluate(browser, "void explorers.get('disc').group.set('row', 250)"));
+  devtools_wait(browser, "explorers.get('disc').replay.drawn === 250");
+  expect_silence();
+  picture("disc");
+}
+
+static void test_cost_has_two_measures(void **state) {
+  (void)state;
+  open_scenario("convergence_rk4");
+  expect("document.querySelector('.shown').textContent.includes('right-hand sides evaluated') && "
+         "document.querySelector('.shown').textContent.includes('processor time, s')");
+}
+
 //---------------------------------- the data in it ------------------------------------------------
 
 // The wheels stand on the ground wherever the replay draws them: the page's kinematics agree with
@@ -313,14 +360,27 @@ static void test_page_is_small(void **state) {
 
 //---------------------------------- set-up --------------------------------------------------------
 
+// The ride of roadster_far, of which the reference has recorded 3 s.
+static const char longer[] =
+    "title: longer\nbicycle: roadster\n"
+    "start: {speed: 6, lean: 0.3490658503988659, steer: -0.29670597283903605}\n"
+    "duration: 10\nsample: 0.01\nreference: {engine: file, file: short.csv}\n"
+    "candidate: {engine: mujoco}\ngates:\n"
+    "  - {layer: L2, metric: max, signals: [lean], limit: 1e-9, reason: test}\n"
+    "  - {layer: L2, metric: difference, signals: [end_time], info: true, reason: test}\n";
+
+#define PROGRAM BICYCLE_BINARY_DIR "/bin/bicycle-validate "
+
 static int begin(void **state) {
   (void)state;
   char *command = NULL, *profile = NULL;
   folder = support_folder();
+  free(support_write(folder, "longer.yml", longer));
   assert_true(asprintf(&command,
-                       BICYCLE_BINARY_DIR "/bin/bicycle-validate roadster_far convergence_rk4 -o "
-                                          "%s/report >%s/out 2>&1",
-                       folder, folder) > 0);
+                       "cd %s && exec >out 2>&1 && " PROGRAM "roadster_far -o first && head -n 302 "
+                       "first/roadster_far-analytic.csv >short.csv && " PROGRAM
+                       "roadster_far convergence_rk4 disc longer.yml -o report",
+                       folder) > 0);
   assert_int_equal(system(command), 0);
   assert_true(asprintf(&address, "file://%s/report/report.html", folder) > 0);
   assert_true(asprintf(&profile, "%s/profile", folder) > 0);
@@ -353,6 +413,9 @@ int main(void) {
       cmocka_unit_test(test_play_and_magnify),
       cmocka_unit_test(test_sorting),
       cmocka_unit_test(test_other_scenario),
+      cmocka_unit_test(test_longer_candidate_is_shown_whole),
+      cmocka_unit_test(test_wheel_alone),
+      cmocka_unit_test(test_cost_has_two_measures),
       cmocka_unit_test(test_replay_stands_on_the_ground),
       cmocka_unit_test(test_data_is_that_of_the_files),
       cmocka_unit_test(test_json_is_that_of_the_file),
