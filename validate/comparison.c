@@ -114,6 +114,7 @@ static term_exit ride(trace *out, comparison *c, const engine *e, void *instance
   double elapsed = engine_clock() - begun;
   double share = (engine_processor_clock() - processor) / elapsed;
   out->cpu_time = out->wall_time * (share < 1 ? share : 1);
+  trace_blank_missing(out);
   c->played++;
   if (code != TERM_DONE) return code;
   long row = trace_first_not_finite(out);

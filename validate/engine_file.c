@@ -134,12 +134,7 @@ static double value_of(const playing *g, const source *s) {
 }
 
 static term_exit record(playing *g) {
-  trace_row row = {0};
-  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
-    double none = NAN;
-    memcpy((char *)&row + trace_signals[i].offset, &none, sizeof none);
-  }
-  row.sample.time = (double)g->next * g->asked->sample;
+  trace_row row = {.sample.time = (double)g->next * g->asked->sample};
   for (int i = 0; i < g->r->signal_count; i++) {
     double value = value_of(g, &g->r->signals[i]);
     memcpy((char *)&row + g->r->signals[i].signal->offset, &value, sizeof value);
@@ -184,6 +179,7 @@ static term_exit end(playing *g, problem *p) {
   if (g->next == 0) note_gap(g);
   if (*g->gap.text) return problem_set(p, TERM_USAGE, "%s", g->gap.text);
   bool complete = g->next > g->last;
+  g->out->ending = "end of the recording";
   trace_end(g->out, complete, complete ? g->asked->duration : g->time, NULL, 0);
   return TERM_DONE;
 }

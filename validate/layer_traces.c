@@ -221,7 +221,7 @@ static void describe_ends(measurement *m, const comparison *c) {
   char end[2][96];
   for (int i = 0; i < 2; i++) {
     const trace *t = &c->side[i].trace;
-    const char *what = t->complete ? "the whole ride" : bike_event_string(t->end_event.kind);
+    const char *what = t->complete ? "the whole ride" : trace_ending(t);
     snprintf(end[i], sizeof end[i], "%s to %.9g s (%.40s)", c->side[i].label, t->end_time, what);
   }
   measurement_detail(m, "%s, %s", end[0], end[1]);

@@ -164,8 +164,9 @@ static bool draw_contacts(FILE *stream, const comparison *c) {
   int side = c->side[CANDIDATE].trace.has_contacts ? CANDIDATE : REFERENCE;
   if (!c->side[side].trace.has_contacts) return true;
   for (int i = 0; i < MOST_LINES; i++)
-    add(&p, styles[i], report_series_time(c, side),
-        report_series_of(c, side, trace_find_signal(names[i])));
+    if (trace_has(&c->side[side].trace, trace_find_signal(names[i])))
+      add(&p, styles[i], report_series_time(c, side),
+          report_series_of(c, side, trace_find_signal(names[i])));
   return finish(stream, &p);
 }
 

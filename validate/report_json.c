@@ -101,8 +101,7 @@ static json_t *engine_json(const comparison_side *side, const engine_choice *cho
   json_object_set_new(object, "rows", json_integer((json_int_t)t->count));
   json_object_set_new(object, "steps", json_integer(t->steps));
   json_object_set_new(object, "end_time", term_json_number(t->end_time));
-  json_object_set_new(object, "ended_by",
-                      text_or_null(t->complete ? NULL : bike_event_string(t->end_event.kind)));
+  json_object_set_new(object, "ended_by", text_or_null(trace_ending(t)));
   return object;
 }
 

@@ -182,6 +182,7 @@ static void add_side(pack *p, const comparison *c, int side) {
   report_series_clear(&balance);
   for (int i = 0; c->side[side].trace.has_contacts && i < CONTACT_COUNT; i++) {
     const trace_signal *signal = trace_find_signal(contacts[i]);
+    if (!trace_has(&c->side[side].trace, signal)) continue;
     report_series value = report_series_of(c, side, signal);
     p->lost |= !value.value;
     add_log(p, &value, signal->name, signal->unit, label);

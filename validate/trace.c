@@ -86,6 +86,18 @@ double trace_value(const trace_row *row, const trace_signal *signal) {
   return value;
 }
 
+void trace_blank_missing(trace *t) {
+  const double none = NAN;
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
+    for (size_t k = 0; !trace_has(t, &trace_signals[i]) && k < t->count; k++)
+      memcpy((char *)&t->rows[k] + trace_signals[i].offset, &none, sizeof none);
+}
+
+const char *trace_ending(const trace *t) {
+  if (t->complete) return NULL;
+  return t->ending ? t->ending : bike_event_string(t->end_event.kind);
+}
+
 static bool may_be_not_finite(const trace_signal *signal) {
   return strstr(signal->name, "_friction") != NULL;
 }

@@ -22,15 +22,22 @@ typedef struct trace {
   bool complete;        // the whole duration was ridden
   double end_time;      // s
   bike_event end_event; // what ended the ride where it is not complete
-  long steps;           // of the integrator; 0 of an engine that does not say
-  long evaluations;     // of the right-hand sides; as steps
-  double wall_time;     // s    of the integrator, elapsed
-  double cpu_time;      // s    of that the time for which it had a processor
+  const char *ending; // the same in words, of an engine with endings of its own; NULL: the event's
+  long steps;         // of the integrator; 0 of an engine that does not say
+  long evaluations;   // of the right-hand sides; as steps
+  double wall_time;   // s    of the integrator, elapsed
+  double cpu_time;    // s    of that the time for which it had a processor
 } trace;
 
 // Appends a row; false when out of memory.
 bool trace_add(trace *t, const trace_row *row);
 void trace_clear(trace *t);
+
+// Makes the numbers of all signals that are missing NaN.
+void trace_blank_missing(trace *t);
+
+// In words; NULL of a ride that is complete.
+const char *trace_ending(const trace *t);
 
 // Notes how the ride ended; `events` are those of the engine, in order of time.
 void trace_end(trace *t, bool complete, double end_time, const bike_event *events, int count);
