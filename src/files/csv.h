@@ -20,6 +20,12 @@ typedef struct bike_csv_header {
 // The place of a column, or -1.
 int bike_csv_column(const bike_csv_header *header, const char *name);
 
+//---------------------------------- writing -------------------------------------------------------
+
+// A line of names, and one of numbers with 17 digits, whatever the locale.
+void bike_csv_write_names(FILE *stream, const char *const names[], int count);
+void bike_csv_write_row(FILE *stream, const double values[], int count);
+
 //---------------------------------- row by row ----------------------------------------------------
 
 // A table that is read on: whatever its length, it takes no more memory than its longest line.

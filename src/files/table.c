@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bicycle/table.h>
 
-#include "number.h"
+#include "csv.h"
 
 static const char *const NAMES[BIKE_COLUMN_COUNT + 1] = {"time",
                                                          "x",
@@ -41,17 +41,11 @@ void bike_columns(double out[BIKE_COLUMN_COUNT], const bike_sample *s, bike_conv
 }
 
 void bike_table_header(FILE *stream) {
-  for (int i = 0; i < BIKE_COLUMN_COUNT; ++i) fprintf(stream, "%s%s", i ? "," : "", NAMES[i]);
-  fputc('\n', stream);
+  bike_csv_write_names(stream, NAMES, BIKE_COLUMN_COUNT);
 }
 
 void bike_table_row(FILE *stream, const bike_sample *sample, bike_convention convention) {
   double row[BIKE_COLUMN_COUNT];
   bike_columns(row, sample, convention);
-  for (int i = 0; i < BIKE_COLUMN_COUNT; ++i) {
-    char text[BIKE_NUMBER_SIZE];
-    bike_number_print(text, row[i]);
-    fprintf(stream, "%s%s", i ? "," : "", text);
-  }
-  fputc('\n', stream);
+  bike_csv_write_row(stream, row, BIKE_COLUMN_COUNT);
 }
