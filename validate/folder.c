@@ -6,7 +6,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -72,23 +71,47 @@ term_exit folder_check(const char *path, problem *p) {
   return code;
 }
 
+// What ends a program from outside and can be made to wait.
+static sigset_t ending_signals(void) {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);
+  sigaddset(&set, SIGQUIT);
+  return set;
+}
+
+bool folder_is_interrupted(void) {
+  const sigset_t ending = ending_signals();
+  sigset_t waiting, both;
+  sigemptyset(&waiting);
+  sigpending(&waiting);
+  sigandset(&both, &waiting, &ending);
+  return !sigisemptyset(&both);
+}
+
+// From here on signals end the program again; one that has waited does so now.
+static void forget(folder *f) {
+  const sigset_t before = f->signals;
+  free(f->target);
+  free(f->aside);
+  *f = (folder){0};
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+}
+
 term_exit folder_begin(folder *out, const char *path, problem *p) {
   *out = (folder){0};
   term_exit code = folder_check(path, p);
   if (code != TERM_DONE) return code;
+  const sigset_t ending = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &ending, &out->signals);
   out->target = plain_path(path);
   out->aside = out->target ? path_aside(out->target, "new") : NULL;
-  if (!out->aside) {
-    free(out->target);
-    *out = (folder){0};
-    return problem_memory(p);
-  }
-  folder_content_remove(out->aside); // of a killed process with our number
-  if (mkdir(out->aside, 0777) == 0) return TERM_DONE;
-  code = fail(path, errno, p);
-  free(out->target);
-  free(out->aside);
-  *out = (folder){0};
+  if (out->aside) folder_content_remove(out->aside); // of a killed process with our number
+  if (out->aside && mkdir(out->aside, 0777) == 0) return TERM_DONE;
+  code = out->aside ? fail(path, errno, p) : problem_memory(p);
+  forget(out);
   return code;
 }
 
@@ -143,15 +166,12 @@ term_exit folder_commit(folder *f, problem *p) {
     folder_abort(f);
     return code;
   }
-  free(f->target);
-  free(f->aside);
-  *f = (folder){0};
+  forget(f);
   return TERM_DONE;
 }
 
 void folder_abort(folder *f) {
-  if (f->aside) folder_content_remove(f->aside);
-  free(f->target);
-  free(f->aside);
-  *f = (folder){0};
+  if (!f->aside) return;
+  folder_content_remove(f->aside);
+  forget(f);
 }

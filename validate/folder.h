@@ -6,23 +6,30 @@
 
 #include "problem.h"
 
+#include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct folder {
-  char *target; // the folder that commit brings about
-  char *aside;  // where it is filled
+  char *target;     // the folder that commit brings about
+  char *aside;      // where it is filled
+  sigset_t signals; // blocked before, by the caller
 } folder;
 
 // Whether a report can be written there: a folder that does not exist yet, an empty one, or an
 // earlier report with nothing else in it, in a folder that can be written to. TERM_USAGE if not.
 term_exit folder_check(const char *path, problem *p);
 
-// The same, and begins to fill it. Commit or abort it in the end.
+// The same, and begins to fill it. Commit or abort it in the end. Until then signals that would end
+// the program wait; it has one thread.
 term_exit folder_begin(folder *out, const char *path, problem *p);
 
 // Opens a new file in it; close it with folder_close. NULL on failure.
 FILE *folder_open(const folder *f, const char *name, problem *p);
 term_exit folder_close(FILE *stream, const char *name, problem *p);
+
+// Whether a signal waits to end the program: what follows need not be written.
+bool folder_is_interrupted(void);
 
 term_exit folder_commit(folder *f, problem *p);
 

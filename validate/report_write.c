@@ -60,14 +60,19 @@ static term_exit write_view(const folder *f, const report *r, const json_t *docu
   return code != TERM_DONE || written ? code : problem_memory(p);
 }
 
+// Said only where the signal that waits is caught by somebody: it ends the program otherwise.
+static term_exit interrupted(problem *p) {
+  return problem_set(p, TERM_INVALID, "interrupted");
+}
+
 term_exit report_write(const report *r, const json_t *document, const char *path, problem *p) {
   folder f;
   term_exit code = folder_begin(&f, path, p);
   if (code != TERM_DONE) return code;
   for (size_t i = 0; i < r->count && code == TERM_DONE; i++)
-    code = write_scenario(&f, &r->comparisons[i], p);
+    code = folder_is_interrupted() ? interrupted(p) : write_scenario(&f, &r->comparisons[i], p);
   for (int i = 0; i < REPORT_VIEWS && code == TERM_DONE; i++)
-    code = write_view(&f, r, document, i, p);
+    code = folder_is_interrupted() ? interrupted(p) : write_view(&f, r, document, i, p);
   if (code == TERM_DONE) return folder_commit(&f, p);
   folder_abort(&f);
   return problem_prefix(p, code, path);
