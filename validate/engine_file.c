@@ -49,6 +49,9 @@ static void list_columns(char *out, size_t size, const bike_csv_header *header) 
 static term_exit no_column(const recording *r, const char *column, const char *signal, problem *p) {
   char all[400];
   list_columns(all, sizeof all, &r->reader.header);
+  if (strcmp(column, signal) == 0)
+    return problem_set(p, TERM_USAGE, "%s: there is no column '%s'; there are: %s", r->path, column,
+                       all);
   return problem_set(p, TERM_USAGE, "%s: there is no column '%s' for '%s'; there are: %s", r->path,
                      column, signal, all);
 }
@@ -144,12 +147,14 @@ static term_exit record(playing *g) {
 }
 
 static void note_gap(playing *g) {
+  char before[48] = "";
   if (*g->gap.text) return;
+  if (g->rows > 1) snprintf(before, sizeof before, " follows %.9g s", g->before);
   problem_set(&g->gap, TERM_USAGE,
-              "%s:%ld: there is no row at %.9g s: %.9g s follows %.9g s (rows are needed at every "
-              "sample of the scenario)",
+              "%s:%ld: there is no row at %.9g s: %.9g s%s (rows are needed at every sample of the "
+              "scenario)",
               g->r->path, g->r->reader.line, (double)g->next * g->asked->sample, g->time,
-              g->rows > 1 ? g->before : NAN);
+              g->rows > 1 ? before : " is the first");
 }
 
 static term_exit take_row(playing *g, problem *p) {
