@@ -2,7 +2,7 @@
 // The mujoco_disc engine: the rear wheel of a bicycle, rolling alone, as plugin/examples/disc.xml
 // with the wheel's numbers, kept on the ground by plugin/rolling.h.
 #include "engine_disc.h"
-#include "sha256.h"
+#include "files/sha256.h"
 
 #include <math.h>
 #include <rolling.h>

@@ -9,8 +9,8 @@
 #include "terminal/json.h"
 #include "terminal/number.h"
 #include "terminal/table.h"
+#include "terminal/threads.h"
 
-#include <sched.h>
 #include <string.h>
 
 static const char example[] = "Example: bicycle validate\n"
@@ -35,21 +35,7 @@ typedef struct arguments {
   int count;
 } arguments;
 
-enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE, MOST_JOBS = 256 };
-
-// The processors that this process may use: a container or taskset gives fewer than there are.
-static int processors(void) {
-  cpu_set_t set;
-  int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-  return count < MOST_JOBS ? count : MOST_JOBS;
-}
-
-static int jobs_of(const char *text) {
-  long jobs;
-  if (!term_parse_integer(&jobs, text, 1, MOST_JOBS))
-    term_usage("--jobs: '%s' is not a whole number from 1 to %d", text, MOST_JOBS);
-  return (int)jobs;
-}
+enum { KEY_JSON = TERM_KEY_FIRST, KEY_ALL, KEY_BASELINE };
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -58,7 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->output = text;
     return 0;
   case 'j':
-    args->jobs = jobs_of(text);
+    args->jobs = term_threads_of("--jobs", text);
     return 0;
   case KEY_JSON:
     args->json = true;
@@ -214,7 +200,7 @@ int main(int argc, char **argv) {
       options,       parse, "[SCENARIO...]\nlist\ncompare A.json B.json\nbless [REPORT]",
       documentation, NULL,  NULL,
       NULL};
-  arguments args = {.output = "bicycle-report", .jobs = processors()};
+  arguments args = {.output = "bicycle-report", .jobs = term_processors()};
   term_begin(name);
   argv[0] = name;
   term_parse(&argp, example, argc, argv, &args);

@@ -247,7 +247,7 @@ static void tell_engines(scenario *s) {
 
 // A file may move the rider only where there is one.
 static int check_rider(const bike_yaml *yaml, const scenario *s) {
-  bike_field field = {"input", 0, NULL};
+  bike_field field = {.key = "input"};
   if (!s->input.table || !bike_input_table_has_rider(s->input.table) || s->model.rider_mass > 0)
     return BIKE_OK;
   bike_yaml_find(yaml->root, field.key, &field);

@@ -7,7 +7,7 @@
 #include "engine.h"
 #include "measurement.h"
 
-#include "sha256.h"
+#include "files/sha256.h"
 
 #include <bicycle/input.h>
 #include <stdint.h>

@@ -27,7 +27,7 @@ static int hash_file(scenario_input *input, bike_file_error *error) {
 
 int scenario_load_input(const bike_yaml *yaml, scenario_input *input, double duration) {
   static const char *const torques[] = {"steer_torque", "roll_torque"};
-  bike_field field = {"input", 0, NULL}, torque;
+  bike_field field = {.key = "input"}, torque;
   bike_file_error error;
   if (!*input->path) return BIKE_OK;
   bike_yaml_find(yaml->root, field.key, &field);

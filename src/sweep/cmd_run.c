@@ -5,6 +5,7 @@
 #include "run.h"
 #include "terminal/command.h"
 #include "terminal/number.h"
+#include "terminal/threads.h"
 
 #include <string.h>
 
@@ -37,8 +38,6 @@ static const char documentation[] =
     "signal.";
 
 enum { KEY_THREADS = TERM_KEY_FIRST, KEY_SHARD, KEY_FRESH, KEY_JSON };
-enum { MOST_THREADS = 256 };
-
 static void take_shard(sweep_shard *out, const char *text) {
   const char *why = "";
   if (!sweep_parse_shard(out, text, &why)) term_usage("--shard: '%s': %s", text, why);
@@ -53,8 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     run->result = text;
     return 0;
   case KEY_THREADS:
-    if (!term_parse_integer(&run->threads, text, 1, MOST_THREADS))
-      term_usage("--threads: '%s' is not a number from 1 to %d", text, MOST_THREADS);
+    run->threads = term_threads_of("--threads", text);
     return 0;
   case KEY_SHARD:
     take_shard(&run->shard, text);

@@ -4,13 +4,12 @@
 #include "interrupt.h"
 #include "terminal/command.h"
 #include "terminal/data.h"
+#include "terminal/threads.h"
 
 #include <bicycle/error.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
-
-enum { MOST_THREADS = 256 };
 
 // "RESULT.log", or "RESULT.KofN.log" for a shard.
 static bool find_log_path(char out[TERM_PATH_SIZE], const sweep_run *run) {
@@ -24,8 +23,7 @@ static bool find_log_path(char out[TERM_PATH_SIZE], const sweep_run *run) {
 // All processors for one process; ranks are one to a processor already.
 static int threads_of(const sweep_run *run, sweep_ranks ranks) {
   if (run->threads > 0) return (int)run->threads;
-  const long processors = ranks.count > 1 ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
-  return processors < 1 ? 1 : processors > MOST_THREADS ? MOST_THREADS : (int)processors;
+  return ranks.count > 1 ? 1 : term_processors();
 }
 
 // Ends where any rank fails, and says so once.
