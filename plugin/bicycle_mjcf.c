@@ -2,6 +2,7 @@
 // The text of the model: what moves, what weighs, what rolls.
 #include "bicycle_mjcf_internal.h"
 
+#include <bicycle/error.h>
 #include <stdlib.h>
 
 void mjcf_put(FILE *out, const char *name, const double *values, int count) {
@@ -10,8 +11,7 @@ void mjcf_put(FILE *out, const char *name, const double *values, int count) {
   fputc('"', out);
 }
 
-// Names of bicycles are anybody's text; MJCF is XML.
-static void put_escaped(FILE *out, const char *text) {
+void mjcf_put_escaped(FILE *out, const char *text) {
   for (; *text; text++) {
     switch (*text) {
     case '&':
@@ -42,6 +42,8 @@ static void put_header(FILE *out, const mjcf_plan *plan) {
     fputs(
         "     The wheels roll where libmujoco_rolling.so is loaded; elsewhere they fall through.\n",
         out);
+  if (plan->apart)
+    fputs("     Ground, light and sky are those of scene.xml, which includes this.\n", out);
   for (int i = 0; i < plan->bodies; i++) {
     if (!plan->body[i].placeholder) continue;
     if (!any)
@@ -55,7 +57,7 @@ static void put_header(FILE *out, const mjcf_plan *plan) {
   }
   fputs(any ? "\n-->\n" : "-->\n", out);
   fputs("<mujoco model=\"", out);
-  put_escaped(out, plan->bicycle->name);
+  mjcf_put_escaped(out, plan->bicycle->name);
   fputs("\">\n", out);
 }
 
@@ -118,6 +120,7 @@ static void open_body(FILE *out, const mjcf_plan *plan, int assembly,
   for (int k = 0; k < 3; k++) place[k] = body->origin[k] - parent_origin[k];
   mjcf_indent(out, assembly, 0);
   fprintf(out, "<body name=\"%s\"", body->name);
+  if (plan->apart && assembly == BIKE_REAR_FRAME) fputs(" childclass=\"bicycle\"", out);
   mjcf_put(out, "pos", place, 3);
   fputs(">\n", out);
   mjcf_indent(out, assembly, 1);
@@ -144,23 +147,27 @@ static void put_root_joints(FILE *out, mjcf_root root) {
   fputs(root == MJCF_ROOT_FREE ? "      <freejoint name=\"root\"/>\n" : hinges, out);
 }
 
-// MuJoCo's own contact of the wheel: an ellipsoid 1 mm thick, the nearest it has to a thin disc.
-static void put_tread(FILE *out, const mjcf_plan *plan, bike_assembly wheel, double radius) {
-  if (plan->options->rolling == MJCF_ROLLING_EXACT) return;
-  const double size[3] = {radius, 0.001, radius};
-  // As stiff as MuJoCo allows (refsafe: two timesteps) unless asked otherwise, critically damped.
-  // Friction 1: dry tarmac.
-  const mjcf_options *asked = plan->options;
-  const double solref[2] = {asked->contact_time > 0 ? asked->contact_time : 2 * asked->timestep, 1};
+// As stiff as MuJoCo allows (refsafe: two timesteps) unless asked otherwise, critically damped.
+// Friction 1: dry tarmac.
+void mjcf_put_contact(FILE *out, const mjcf_options *options) {
+  const double solref[2] = {
+      options->contact_time > 0 ? options->contact_time : 2 * options->timestep, 1};
   const double solimp[3] = {0.99, 0.999, 1e-4}, friction[1] = {1};
-  mjcf_indent(out, wheel, 1);
-  fprintf(out, "<geom name=\"%s\" type=\"ellipsoid\" mass=\"0\" group=\"3\"",
-          wheel == BIKE_REAR_WHEEL ? "rear_tread" : "front_tread");
   fputs(" contype=\"1\" conaffinity=\"1\" condim=\"3\" priority=\"1\"", out);
-  mjcf_put(out, "size", size, 3);
   mjcf_put(out, "friction", friction, 1);
   mjcf_put(out, "solref", solref, 2);
   mjcf_put(out, "solimp", solimp, 3);
+}
+
+// MuJoCo's own contact of the wheel: an ellipsoid 1 mm thick, the nearest it has to a thin disc.
+static void put_tread(FILE *out, const mjcf_plan *plan, bike_assembly wheel, double radius) {
+  if (plan->options->rolling == MJCF_ROLLING_EXACT && !plan->apart) return;
+  const double size[3] = {radius, 0.001, radius};
+  mjcf_indent(out, wheel, 1);
+  fprintf(out, "<geom name=\"%s\"", wheel == BIKE_REAR_WHEEL ? "rear_tread" : "front_tread");
+  fputs(plan->apart ? " class=\"collision\"" : " type=\"ellipsoid\" mass=\"0\" group=\"3\"", out);
+  mjcf_put(out, "size", size, 3);
+  if (!plan->apart) mjcf_put_contact(out, plan->options);
   fputs("/>\n", out);
 }
 
@@ -173,8 +180,8 @@ static void put_wheel(FILE *out, const mjcf_plan *plan, bike_assembly wheel) {
   const bike_geometry *g = &plan->bicycle->geometry;
   open_body(out, plan, wheel, plan->body[rear ? BIKE_REAR_FRAME : BIKE_FRONT_FRAME].origin);
   mjcf_indent(out, wheel, 1);
-  fprintf(out, "<joint name=\"%s\" type=\"hinge\" axis=\"0 1 0\"/>\n",
-          rear ? "rear_spin" : "front_spin");
+  fprintf(out, "<joint name=\"%s\" %s/>\n", rear ? "rear_spin" : "front_spin",
+          plan->apart ? "class=\"wheel\"" : "type=\"hinge\" axis=\"0 1 0\"");
   put_tread(out, plan, wheel, rear ? g->R_r : g->R_f);
   put_shape(out, plan, wheel);
   close_body(out, wheel);
@@ -204,21 +211,32 @@ static void put_rider(FILE *out, const mjcf_plan *plan) {
 
 // MuJoCo integrates the work of the rider's drive as an activation (rolling.h).
 static void put_actuator(FILE *out, const mjcf_plan *plan) {
-  if (!plan->options->moving_rider) return;
-  fputs("  <actuator>\n    <general name=\"rolling:rider:work\" joint=\"rider\" dyntype=\"user\" "
-        "gainprm=\"0\"/>\n  </actuator>\n",
-        out);
+  if (!plan->options->moving_rider && !plan->apart) return;
+  fputs("  <actuator>\n", out);
+  if (plan->apart) fputs("    <motor name=\"steer_torque\" joint=\"steer\"/>\n", out);
+  if (plan->options->moving_rider)
+    fputs("    <general name=\"rolling:rider:work\" joint=\"rider\" dyntype=\"user\" "
+          "gainprm=\"0\"/>\n",
+          out);
+  fputs("  </actuator>\n", out);
+}
+
+void mjcf_put_ground(FILE *out, bool visible) {
+  fprintf(out, "    <geom name=\"ground\" type=\"plane\" size=\"0 0 0.1\" condim=\"3\"%s/>\n",
+          visible ? " material=\"ground\"" : "");
 }
 
 static void put_world(FILE *out, const mjcf_plan *plan) {
   static const double ground[3] = {0, 0, 0};
   fputs("  <worldbody>\n", out);
-  fprintf(out, "    <geom name=\"ground\" type=\"plane\" size=\"0 0 0.1\" condim=\"3\"%s/>\n",
-          plan->options->visible ? " material=\"ground\"" : "");
-  if (plan->options->visible) mjcf_put_scenery(out);
+  if (!plan->apart) {
+    mjcf_put_ground(out, plan->options->visible);
+    if (plan->options->visible) mjcf_put_scenery(out);
+  }
   open_body(out, plan, BIKE_REAR_FRAME, ground);
   put_root_joints(out, plan->options->root);
   if (plan->options->visible) mjcf_put_cameras(out);
+  if (plan->apart) mjcf_put_hub_site(out, plan);
   put_shape(out, plan, BIKE_REAR_FRAME);
   put_wheel(out, plan, BIKE_REAR_WHEEL);
   put_front(out, plan);
@@ -237,26 +255,52 @@ static void put_key(FILE *out, const mjcf_plan *plan, const mjcf_key *key) {
   fputs("/>\n  </keyframe>\n", out);
 }
 
+static void put_model(FILE *out, const mjcf_plan *plan, const mjcf_key *key) {
+  bool visible = plan->options->visible;
+  put_header(out, plan);
+  put_option(out, plan);
+  if (plan->apart) {
+    mjcf_put_classes(out, plan);
+    if (visible) mjcf_put_materials(out);
+  } else if (visible) {
+    mjcf_put_assets(out);
+  }
+  put_custom(out, plan);
+  put_world(out, plan);
+  if (plan->apart) mjcf_put_tendon(out, plan);
+  put_actuator(out, plan);
+  if (plan->apart) mjcf_put_sensors(out, plan);
+  put_key(out, plan, key);
+  fputs("</mujoco>\n", out);
+}
+
+char *mjcf_end_text(FILE *out, char **text, mjcf_error *error) {
+  bool whole = !ferror(out);
+  if (fclose(out) == 0 && whole) return *text;
+  free(*text);
+  return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+}
+
+static char *make_text(mjcf_plan *plan, const mjcf_key *key, mjcf_error *error) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  put_model(out, plan, key);
+  return mjcf_end_text(out, &text, error);
+}
+
 char *mjcf_text(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,
                 mjcf_error *error) {
   mjcf_plan plan;
   if (!mjcf_plan_init(&plan, bicycle, options, error)) return NULL;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return mjcf_fail(error, "out of memory"), NULL;
-  put_header(out, &plan);
-  put_option(out, &plan);
-  if (options->visible) mjcf_put_assets(out);
-  put_custom(out, &plan);
-  put_world(out, &plan);
-  put_actuator(out, &plan);
-  put_key(out, &plan, key);
-  fputs("</mujoco>\n", out);
-  bool whole = !ferror(out);
-  if (fclose(out) != 0 || !whole) {
-    free(text);
-    return mjcf_fail(error, "out of memory"), NULL;
-  }
-  return text;
+  return make_text(&plan, key, error);
+}
+
+char *mjcf_model_text(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,
+                      mjcf_error *error) {
+  mjcf_plan plan;
+  if (!mjcf_plan_init(&plan, bicycle, options, error)) return NULL;
+  plan.apart = true;
+  return make_text(&plan, key, error);
 }

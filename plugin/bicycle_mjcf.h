@@ -66,10 +66,22 @@ typedef struct mjcf_key {
 char *mjcf_text(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,
                 mjcf_error *error);
 
-// How many bodies of the bicycle have a tensor which MJCF refuses (a principal moment above the
-// sum of the other two, or zero): the text holds a legal placeholder for these, and the exact
-// tensor in <custom><numeric name="inertia:BODY" data="Ixx Iyy Izz Ixy Ixz Iyz"/>.
-int mjcf_placeholder_count(const bike_bicycle *bicycle);
+// The same bicycle in the manner of google-deepmind/mujoco_menagerie, model and scene apart: a file
+// with default classes (visual, collision, wheel), a motor on the steer and sensors, and a scene
+// that includes `model_file`, with ground, light, sky and a camera. Their sensors:
+//   steer, steer_rate; lean, lean_rate, speed (hinge root: joints and a fixed tendon)
+//   left_axis, hub_velocity   (free root: sin(lean) is the z of the first)
+//   rolling:model:energy      (rolling.h)
+// The compiled bodies and the ride are those of mjcf_text.
+char *mjcf_model_text(const bike_bicycle *bicycle, const mjcf_options *options, const mjcf_key *key,
+                      mjcf_error *error);
+char *mjcf_scene_text(const bike_bicycle *bicycle, const char *model_file, mjcf_error *error);
+
+// How many bodies of the bicycle, made with these options, have a tensor which MJCF refuses (a
+// principal moment above the sum of the other two, or zero): the text holds a legal placeholder for
+// these, and the exact tensor in <custom><numeric name="inertia:BODY" data="Ixx Iyy Izz Ixy Ixz
+// Iyz"/>.
+int mjcf_placeholder_count(const bike_bicycle *bicycle, const mjcf_options *options);
 
 // Compiles MJCF text, or the file (.xml or .mjb), and applies exact tensors (below). NULL with a
 // text in `error`; never exits. The compiler of MuJoCo 2.2 keeps its last model globally: threads

@@ -33,6 +33,7 @@ typedef struct mjcf_plan {
   double across[3]; // unit, forwards and square to it in the plane of symmetry (e_p)
   mjcf_body body[MJCF_BODIES];
   int bodies; // without the rider, or all
+  bool apart; // the model without its scene: classes and sensors of its own, no ground, no light
 } mjcf_plan;
 
 // Checks the bicycle and the options and fills the plan, which keeps both pointers.
@@ -51,8 +52,17 @@ void mjcf_put(FILE *out, const char *name, const double *values, int count);
 // The blanks before a line of a body, or of what stands `deeper` in it.
 void mjcf_indent(FILE *out, int body, int deeper);
 
-// What is only looked at: colours; lights and cameras; the geoms of one body.
+// Anybody's text within an attribute.
+void mjcf_put_escaped(FILE *out, const char *text);
+
+// Ends a memory stream that was opened on *text: the text, or NULL where it is not whole.
+char *mjcf_end_text(FILE *out, char **text, mjcf_error *error);
+
+// What is only looked at: colours with and without those of the scene; lights, sky and cameras; the
+// geoms of one body.
 void mjcf_put_assets(FILE *out);
+void mjcf_put_materials(FILE *out);
+void mjcf_put_scene_assets(FILE *out);
 void mjcf_put_scenery(FILE *out);
 void mjcf_put_cameras(FILE *out);
 void mjcf_put_shape(FILE *out, const mjcf_plan *plan, int body);
@@ -60,5 +70,17 @@ void mjcf_put_shape(FILE *out, const mjcf_plan *plan, int body);
 // Asks MuJoCo's compiler for the model `path`: a file, or where `vfs` is not NULL a name in that.
 // Threads wait for each other. NULL with a text in one line.
 mjModel *mjcf_call_compiler(const char *path, mjVFS *vfs, mjcf_error *error);
+
+// The plane z = 0.
+void mjcf_put_ground(FILE *out, bool visible);
+
+// Attributes of a geom that touches the ground.
+void mjcf_put_contact(FILE *out, const mjcf_options *options);
+
+// What a model apart from its scene has more (bicycle_mjcf_apart.c).
+void mjcf_put_classes(FILE *out, const mjcf_plan *plan);
+void mjcf_put_hub_site(FILE *out, const mjcf_plan *plan);
+void mjcf_put_tendon(FILE *out, const mjcf_plan *plan);
+void mjcf_put_sensors(FILE *out, const mjcf_plan *plan);
 
 #endif

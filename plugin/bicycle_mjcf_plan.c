@@ -144,11 +144,10 @@ bool mjcf_plan_init(mjcf_plan *plan, const bike_bicycle *bicycle, const mjcf_opt
   return make_compilable(plan, error);
 }
 
-int mjcf_placeholder_count(const bike_bicycle *bicycle) {
-  mjcf_options options = mjcf_default_options();
+int mjcf_placeholder_count(const bike_bicycle *bicycle, const mjcf_options *options) {
   mjcf_plan plan;
   mjcf_error error;
-  if (!mjcf_plan_init(&plan, bicycle, &options, &error)) return 0;
+  if (!mjcf_plan_init(&plan, bicycle, options, &error)) return 0;
   int count = 0;
   for (int i = 0; i < plan.bodies; i++) count += plan.body[i].placeholder;
   return count;

@@ -52,8 +52,8 @@ static point on_axis(const mjcf_plan *plan, double height) {
 static void put_geom(const pen *p, const char *type, const char *material, double size0,
                      double size1) {
   mjcf_indent(p->out, p->body, 1);
-  fprintf(p->out, "<geom class=\"shape\" type=\"%s\" material=\"%s\" size=\"%.4g", type, material,
-          size0);
+  fprintf(p->out, "<geom class=\"%s\" type=\"%s\" material=\"%s\" size=\"%.4g",
+          p->plan->apart ? "visual" : "shape", type, material, size0);
   if (size1 > 0) fprintf(p->out, " %.4g", size1);
   fputc('"', p->out);
 }

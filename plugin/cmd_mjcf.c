@@ -125,8 +125,9 @@ static term_exit write_binary(const mjModel *model, const char *path) {
   return code;
 }
 
-static void tell_of_placeholders(const bike_bicycle *bicycle, const char *where) {
-  int count = mjcf_placeholder_count(bicycle);
+static void tell_of_placeholders(const bike_bicycle *bicycle, const mjcf_options *made,
+                                 const char *where) {
+  int count = mjcf_placeholder_count(bicycle, made);
   if (count == 0) return;
   term_message("%s: MJCF refuses the inertia of %d %s; other programs see a placeholder, ours the "
                "exact tensor, as does any program in an .mjb file",
@@ -148,7 +149,8 @@ static term_exit write_model(const arguments *args, const bike_bicycle *bicycle,
   else
     code = write_bytes(args->output, text, strlen(text));
   if (code == TERM_DONE && !binary)
-    tell_of_placeholders(bicycle, args->output ? args->output : args->start.file);
+    tell_of_placeholders(bicycle, &args->model.options,
+                         args->output ? args->output : args->start.file);
   mj_deleteModel(model);
   free(text);
   return code;

@@ -42,8 +42,9 @@
 // needstage="acc"/>, where NAME
 // is a disc, skate or driven joint and the object any at all (MuJoCo wants one). Quantities of
 // discs and skates: force, point, slip (3), normal, height, height_rate, lift (1: it would lift
-// off, else 0); of driven joints: force, power, error. One such sensor also makes force and torque
-// sensors, cfrc_int and cfrc_ext see the forces of the ground.
+// off, else 0); of driven joints: force, power, error; of the whole model, NAME being "model" and
+// tuples not needed: energy, potential, kinetic, J. One sensor of what rolls also makes force and
+// torque sensors, cfrc_int and cfrc_ext see the forces of the ground.
 //
 // What one must know
 // - Units are SI and radians; vectors are in the world frame; forces act ON the wheel.

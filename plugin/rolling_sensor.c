@@ -33,6 +33,13 @@ static const quantity of_drive[] = {
     {"error", offsetof(roll_drive, off), 1},
 };
 
+// Of the whole model; offset in an array of numbers.
+static const quantity of_model[] = {
+    {"potential", 0, 1},
+    {"kinetic", sizeof(mjtNum), 1},
+    {"energy", 2 * sizeof(mjtNum), 1},
+};
+
 static const quantity *find_quantity(const quantity *table, size_t count, const char *name) {
   for (size_t i = 0; i < count; i++)
     if (strcmp(table[i].name, name) == 0) return table + i;
@@ -42,8 +49,14 @@ static const quantity *find_quantity(const quantity *table, size_t count, const 
 // What one user sensor asks for.
 typedef struct question {
   const quantity *quantity; // NULL: nothing known
-  int wheel, drive;         // one is an index, the other -1
+  int wheel, drive;         // one is an index, the other -1; both -1: the model
 } question;
+
+// What bears the name is asked first: a disc may well be called "model".
+static int is_model(const char *object, int length) {
+  static const char name[] = "model";
+  return length == sizeof name - 1 && strncmp(object, name, sizeof name - 1) == 0;
+}
 
 // 0 for a sensor that asks nothing of the discs.
 static int read_question(question *q, const mjModel *m, int sensor) {
@@ -59,6 +72,8 @@ static int read_question(question *q, const mjModel *m, int sensor) {
   if (q->wheel >= 0) q->quantity = find_quantity(of_disc, sizeof of_disc / sizeof *of_disc, last);
   if (q->drive >= 0)
     q->quantity = find_quantity(of_drive, sizeof of_drive / sizeof *of_drive, last);
+  if (q->wheel < 0 && q->drive < 0 && is_model(object, length))
+    q->quantity = find_quantity(of_model, sizeof of_model / sizeof *of_model, last);
   int dim = q->quantity && q->quantity->dim > 1 ? q->quantity->dim : 1;
   if (m->sensor_dim[sensor] != dim || m->sensor_needstage[sensor] != mjSTAGE_ACC)
     q->quantity = NULL;
@@ -72,8 +87,22 @@ roll_error roll_check_sensors(const mjModel *m) {
   return ROLL_OK;
 }
 
+// MuJoCo computes energies only where a flag asks for them.
+static void answer_of_model(mjtNum *data, const question *q, const mjModel *m, mjData *d) {
+  if (!(m->opt.enableflags & mjENBL_ENERGY)) {
+    mj_energyPos(m, d);
+    mj_energyVel(m, d);
+  }
+  const mjtNum energy[3] = {d->energy[0], d->energy[1], d->energy[0] + d->energy[1]};
+  memcpy(data, (const char *)energy + q->quantity->offset, sizeof *data);
+}
+
 static void answer(mjtNum *data, const question *q, const roll_system *s, const mjModel *m,
-                   const mjData *d) {
+                   mjData *d) {
+  if (q->wheel < 0 && q->drive < 0) {
+    answer_of_model(data, q, m, d);
+    return;
+  }
   roll_disc disc;
   roll_drive drive;
   if (q->wheel >= 0) roll_describe_disc(&disc, s, q->wheel, m);
@@ -142,9 +171,20 @@ static void repair(const roll_system *s, const mjModel *m, mjData *d) {
   }
 }
 
+// A model without anything that rolls may ask for its energy.
+static void answer_unmarked(const mjModel *m, mjData *d) {
+  question q;
+  for (int i = 0; i < m->nsensor; i++)
+    if (read_question(&q, m, i) && q.quantity)
+      answer_of_model(d->sensordata + m->sensor_adr[i], &q, m, d);
+}
+
 void roll_sense(const mjModel *m, mjData *d) {
   roll_marker marker = roll_find_marker(m);
-  if (!roll_is_marked(&marker)) return;
+  if (!roll_is_marked(&marker)) {
+    answer_unmarked(m, d);
+    return;
+  }
   mjMARKSTACK;
   roll_system system;
   if (roll_survey(&system, m, d) != ROLL_NO_STACK) {

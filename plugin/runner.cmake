@@ -8,6 +8,7 @@ add_library(mujoco_runner STATIC
   bicycle_import_mass.c
   bicycle_import_wheels.c
   bicycle_mjcf.c
+  bicycle_mjcf_apart.c
   bicycle_mjcf_compile.c
   bicycle_mjcf_inertia.c
   bicycle_mjcf_plan.c

@@ -185,8 +185,12 @@ static void test_placeholders(void **state) {
   (void)state;
   mjcf_options options = mjcf_default_options();
   bike_bicycle roadster = read_shipped("roadster"), benchmark = read_shipped("benchmark");
-  assert_int_equal(mjcf_placeholder_count(&roadster), 4);
-  assert_int_equal(mjcf_placeholder_count(&benchmark), 0);
+  assert_int_equal(mjcf_placeholder_count(&roadster, &options), 4);
+  assert_int_equal(mjcf_placeholder_count(&benchmark, &options), 0);
+  // The rider is a body of his own where he moves.
+  mjcf_options moving = options;
+  moving.moving_rider = true;
+  assert_int_equal(mjcf_placeholder_count(&roadster, &moving), 5);
   char *text = text_of(&roadster, &options);
   assert_non_null(strstr(strstr(text, "<!--"), "PLACEHOLDERS"));
   assert_non_null(strstr(text, "numeric name=\"inertia:front_wheel\""));
