@@ -30,13 +30,28 @@ target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(mujoco_runner
   PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE SUNDIALS::cvode bicycle_options m)
 
+# Pictures: in a target of its own, so that nothing else needs libpng, and nothing at all loads a GL
+# before the first picture.
+find_package(PNG REQUIRED)
+find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
+add_library(mujoco_picture STATIC
+  picture.c
+  picture_gl.c
+  picture_look.c
+  picture_pixels.c
+  picture_view.c)
+target_include_directories(mujoco_picture PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+target_include_directories(mujoco_picture SYSTEM PRIVATE ${OSMESA_INCLUDE_DIR})
+target_link_libraries(mujoco_picture
+  PUBLIC mujoco_runner PRIVATE PNG::PNG ${CMAKE_DL_LIBS} bicycle_options m)
+
 add_executable(bicycle-mujoco
   main.c
   cmd_import.c
   cmd_mjcf.c
   cmd_model.c
   cmd_ride.c)
-target_link_libraries(bicycle-mujoco PRIVATE mujoco_runner terminal bicycle::bicycle bicycle_options)
+target_link_libraries(bicycle-mujoco PRIVATE mujoco_picture mujoco_runner terminal bicycle::bicycle bicycle_options)
 set_target_properties(bicycle-mujoco PROPERTIES
   INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS bicycle-mujoco RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
