@@ -17,6 +17,7 @@
 #define BICYCLE_MJCF_H
 
 #include <bicycle/bicycle.h>
+#include <bicycle/state.h>
 #include <mujoco/mujoco.h>
 
 // Joints of the root. MuJoCo's RK4 is of order 4 with hinges, only of order 2 with a free joint.
@@ -77,6 +78,22 @@ char *mjcf_model_text(const bike_bicycle *bicycle, const mjcf_options *options, 
                       mjcf_error *error);
 char *mjcf_scene_text(const bike_bicycle *bicycle, const char *model_file, mjcf_error *error);
 
+// What the README.md beside those two says of their origin.
+typedef struct mjcf_origin {
+  const char *name;    // of the files: NAME.xml, NAME.png
+  const char *source;  // the bicycle file beside them
+  const char *command; // that made them
+  const char *version; // of this project
+  bool shipped;        // the bicycle is one of this project's
+  bool picture;        // there is a NAME.png
+  bike_state start;    // of the keyframe
+} mjcf_origin;
+
+// README.md: what the model is, how to use it, its parameters with their origin, licence. free()
+// it.
+char *mjcf_readme_text(const bike_bicycle *bicycle, const mjcf_options *options,
+                       const mjcf_origin *origin, mjcf_error *error);
+
 // How many bodies of the bicycle, made with these options, have a tensor which MJCF refuses (a
 // principal moment above the sum of the other two, or zero): the text holds a legal placeholder for
 // these, and the exact tensor in <custom><numeric name="inertia:BODY" data="Ixx Iyy Izz Ixy Ixz
@@ -87,6 +104,8 @@ int mjcf_placeholder_count(const bike_bicycle *bicycle, const mjcf_options *opti
 // text in `error`; never exits. The compiler of MuJoCo 2.2 keeps its last model globally: threads
 // that call these wait for each other.
 mjModel *mjcf_compile(const char *text, mjcf_error *error);
+mjModel *mjcf_compile_scene(const char *scene, const char *model_file, const char *model,
+                            mjcf_error *error); // text, and name and text of what it includes
 mjModel *mjcf_load(const char *path, mjcf_error *error);
 
 // mjcf_text and mjcf_compile in one.

@@ -71,21 +71,18 @@ void mjcf_put_sensors(FILE *out, const mjcf_plan *plan) {
 
 //---------------------------------- scene ---------------------------------------------------------
 
-// Where a viewer looks at first, around the middle of the bicycle, a rider's height above it.
+// Where a viewer looks at first: around the middle of the bicycle.
 static void put_statistic(FILE *out, double wheelbase) {
-  const double centre[3] = {wheelbase / 2, 0, wheelbase / 2}, extent = 1.5 * wheelbase;
-  fputs("  <statistic", out);
-  mjcf_put(out, "center", centre, 3);
-  mjcf_put(out, "extent", &extent, 1);
-  fputs("/>\n", out);
+  fprintf(out, "  <statistic center=\"%.4g 0 %.4g\" extent=\"%.4g\"/>\n", wheelbase / 2,
+          wheelbase / 2, 1.5 * wheelbase);
 }
 
 // A camera that stands still and turns after the bicycle, beside those that ride along.
 static void put_camera(FILE *out, double wheelbase) {
-  const double place[3] = {3 * wheelbase, -3 * wheelbase, 1.3 * wheelbase};
-  fputs("    <camera name=\"roadside\" mode=\"targetbody\" target=\"rear_frame\"", out);
-  mjcf_put(out, "pos", place, 3);
-  fputs("/>\n", out);
+  fprintf(out,
+          "    <camera name=\"roadside\" mode=\"targetbody\" target=\"rear_frame\""
+          " pos=\"%.4g %.4g %.4g\"/>\n",
+          3 * wheelbase, -3 * wheelbase, 1.3 * wheelbase);
 }
 
 static void put_scene(FILE *out, const bike_bicycle *bicycle, double wheelbase,

@@ -62,26 +62,33 @@ static mjModel *load_exactly(const char *path, mjVFS *vfs, mjcf_error *error) {
   return NULL;
 }
 
-mjModel *mjcf_compile(const char *text, mjcf_error *error) {
-  static const char name[] = "bicycle.xml";
+// A file in memory; false with a text.
+static bool add_file(mjVFS *vfs, const char *name, const char *text, mjcf_error *error) {
   size_t size = strlen(text);
-  if (size == 0) return mjcf_fail(error, "the text is empty"), NULL; // MuJoCo would end the program
-  mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs);                         // 2 MB: too large for a stack
-  mjModel *model = NULL;
-  if (vfs) {
-    mj_defaultVFS(vfs);
-    if (mj_makeEmptyFileVFS(vfs, name, (int)size) == 0) {
-      memcpy(vfs->filedata[0], text, size);
-      model = load_exactly(name, vfs, error);
-    } else {
-      mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
-    }
-    mj_deleteVFS(vfs);
-  } else {
-    mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
-  }
+  if (size == 0) return mjcf_fail(error, "the text is empty"); // MuJoCo would end the program
+  if (mj_makeEmptyFileVFS(vfs, name, (int)size) != 0)
+    return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+  memcpy(vfs->filedata[vfs->nfile - 1], text, size);
+  return true;
+}
+
+mjModel *mjcf_compile_scene(const char *scene, const char *model_file, const char *model,
+                            mjcf_error *error) {
+  static const char name[] = "bicycle-scene.xml";
+  mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs); // 2 MB: too large for a stack
+  if (!vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  mj_defaultVFS(vfs);
+  mjModel *compiled = NULL;
+  if (add_file(vfs, name, scene, error) &&
+      (!model_file || add_file(vfs, model_file, model, error)))
+    compiled = load_exactly(name, vfs, error);
+  mj_deleteVFS(vfs);
   free(vfs);
-  return model;
+  return compiled;
+}
+
+mjModel *mjcf_compile(const char *text, mjcf_error *error) {
+  return mjcf_compile_scene(text, NULL, NULL, error);
 }
 
 mjModel *mjcf_load(const char *path, mjcf_error *error) {

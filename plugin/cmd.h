@@ -22,6 +22,21 @@ typedef struct cmd_model {
 // default options.
 extern const struct argp cmd_model_argp;
 
+// A set of files to be made of a bicycle: model and scene apart (cmd_mjcf_set.c).
+typedef struct cmd_set {
+  const char *output;          // the folder, with a slash at its end
+  const char *file;            // as it was asked for
+  const bike_bicycle *bicycle; //
+  const mjcf_options *options; //
+  const mjcf_key *key;         //
+  const bike_state *start;     // of the key
+  const char *command;         // that asked for it
+  bool no_picture;             //
+} cmd_set;
+
+// Writes it, whole or not at all.
+term_exit cmd_write_set(const cmd_set *set);
+
 // FILE and the start state, every number of it NAN until it is given: `speed` may be missing.
 term_start cmd_no_start(void);
 

@@ -18,23 +18,25 @@
 
 static const char example[] =
     "Example: bicycle mujoco mjcf roadster -o roadster.xml\n"
+    "         bicycle mujoco mjcf roadster -o roadster/\n"
     "         LD_PRELOAD=libmujoco_rolling.so mujoco-simulate roadster.xml\n";
 
 static const char documentation[] =
     "Writes a bicycle as a MuJoCo 2.2 model: MJCF (.xml), or compiled (.mjb), which holds also "
-    "what "
-    "MJCF refuses. Its keyframe 'test' is a start that rolls; without a speed one is chosen at "
-    "which "
-    "the bicycle is stable, if there is one. FILE is a bicycle file or the name of a shipped "
-    "bicycle.";
+    "what MJCF refuses. A name with a slash at its end becomes a folder in the manner of MuJoCo "
+    "Menagerie: NAME.xml with default classes, motor and sensors, scene.xml, which includes it, "
+    "README.md, the bicycle file and a picture; a folder that holds anything else is not replaced. "
+    "The keyframe 'test' is a start that rolls; without a speed one is chosen at which the bicycle "
+    "is stable, if there is one. FILE is a bicycle file or the name of a shipped bicycle.";
 
 typedef struct arguments {
   term_start start;
   cmd_model model;
   const char *output; // NULL: the standard output
+  bool no_picture;    //
 } arguments;
 
-enum { KEY_RIDER_OFFSET = TERM_KEY_FIRST, KEY_MOVING_RIDER };
+enum { KEY_RIDER_OFFSET = TERM_KEY_FIRST, KEY_MOVING_RIDER, KEY_NO_PICTURE };
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -49,6 +51,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case KEY_MOVING_RIDER:
     args->model.options.moving_rider = true;
     return 0;
+  case KEY_NO_PICTURE:
+    args->no_picture = true;
+    return 0;
   case 'o':
     args->output = text;
     return 0;
@@ -58,7 +63,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 }
 
 static const struct argp_option options[] = {
-    {"output", 'o', "X.xml|X.mjb", 0, "Where to write the model (MJCF on the standard output)", 2},
+    {"output", 'o', "X.xml|X.mjb|X/", 0, "Where to write the model (MJCF on the standard output)",
+     2},
+    {"no-picture", KEY_NO_PICTURE, NULL, 0, "A folder without the picture, which needs OSMesa", 2},
     {"rider-offset", KEY_RIDER_OFFSET, "W", 0, "Rider to the right of the file's place, m", 3},
     {"moving-rider", KEY_MOVING_RIDER, NULL, 0,
      "The rider on a slide, a driven joint that follows userdata", 3},
@@ -156,24 +163,67 @@ static term_exit write_model(const arguments *args, const bike_bicycle *bicycle,
   return code;
 }
 
+static bool is_folder(const arguments *args) {
+  return args->output && term_ends_with(args->output, "/");
+}
+
+static void check(const arguments *args) {
+  const char *output = args->output;
+  if (args->no_picture && !is_folder(args)) term_usage("--no-picture: only a folder has one");
+  if (!output || strcmp(output, "-") == 0 || is_folder(args)) return;
+  if (!term_ends_with(output, ".xml") && !term_ends_with(output, ".mjb"))
+    term_usage("--output: '%s' ends neither in .xml nor in .mjb, nor is it a folder (X/)", output);
+}
+
+// The command line in one line; NULL without memory.
+static char *join(int argc, char **argv) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  for (int i = 0; out && i < argc; i++) fprintf(out, "%s%s", i ? " " : "", argv[i]);
+  return out && fclose(out) == 0 ? text : NULL;
+}
+
+static term_exit write_set(const arguments *args, const bike_bicycle *bicycle, const mjcf_key *key,
+                           const bike_state *start, const char *command) {
+  const cmd_set set = {.output = args->output,
+                       .file = args->start.file,
+                       .bicycle = bicycle,
+                       .options = &args->model.options,
+                       .key = key,
+                       .start = start,
+                       .command = command,
+                       .no_picture = args->no_picture};
+  term_exit code = cmd_write_set(&set);
+  if (code == TERM_DONE) tell_of_placeholders(bicycle, &args->model.options, args->output);
+  return code;
+}
+
+static term_exit make(arguments *args, const char *command) {
+  bool given = cmd_has_start(&args->start);
+  if (given && isnan(args->start.state.speed)) term_usage("--speed is missing");
+  bike_bicycle bicycle;
+  bike_model model;
+  term_exit code = term_load_bicycle(&bicycle, &model, args->start.file);
+  if (code != TERM_DONE) return code;
+  mjcf_key key;
+  bike_state state = given ? args->start.state : lively_state(&model);
+  code = find_key(&key, &bicycle, &args->model.options, &state, args->start.file);
+  if (code != TERM_DONE) return code;
+  return is_folder(args) ? write_set(args, &bicycle, &key, &state, command)
+                         : write_model(args, &bicycle, &key);
+}
+
 int cmd_mjcf(int argc, char **argv) {
   const struct argp_child children[] = {
       {&term_start_argp, 0, NULL, 0}, {&cmd_model_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {.start = cmd_no_start(), .model = {.options = mjcf_default_options()}};
+  char *command = join(argc, argv); // before argp puts it into another order
   term_parse(&argp, example, argc, argv, &args);
-  if (args.output && strcmp(args.output, "-") != 0 && !term_ends_with(args.output, ".xml") &&
-      !term_ends_with(args.output, ".mjb"))
-    term_usage("--output: '%s' ends neither in .xml nor in .mjb", args.output);
-  bool given = cmd_has_start(&args.start);
-  if (given && isnan(args.start.state.speed)) term_usage("--speed is missing");
-
-  bike_bicycle bicycle;
-  bike_model model;
-  term_exit code = term_load_bicycle(&bicycle, &model, args.start.file);
-  if (code != TERM_DONE) return code;
-  mjcf_key key;
-  bike_state state = given ? args.start.state : lively_state(&model);
-  code = find_key(&key, &bicycle, &args.model.options, &state, args.start.file);
-  return code == TERM_DONE ? write_model(&args, &bicycle, &key) : code;
+  check(&args);
+  term_exit code =
+      command ? make(&args, command) : term_fail_bike(BIKE_ERROR_MEMORY, args.start.file);
+  free(command);
+  return code;
 }

@@ -130,11 +130,10 @@ static void render(void *argument) {
   place(p);
   mjv_defaultOption(&options);
   options.flags[mjVIS_INERTIA] = !picture_has_shapes(p->model);
+  const double *centre = p->data->subtree_com; // of the whole world
   if (p->frames) picture_frame(&p->camera, p->model, p->data, p->size);
   mjv_updateScene(p->model, p->data, &options, NULL, &p->camera, mjCAT_ALL, &p->scene);
-  if (p->model->nlight == 0)
-    picture_add_sun(&p->scene, p->frames ? p->camera.lookat : p->model->stat.center,
-                    p->model->stat.extent);
+  picture_light(&p->scene, p->model, centre);
   mjr_render(whole, &p->scene, &p->context);
   mjr_readPixels(p->rgb, p->depth, whole, &p->context);
 }

@@ -30,8 +30,9 @@ bool picture_has_shapes(const mjModel *m);
 // Smooth round shapes; colours for geoms that have none of their own, light for a model without.
 void picture_prepare_look(mjModel *m);
 
-// A light from the right, before and above, with shadows, at a distance (m) from what it shines on.
-void picture_add_sun(mjvScene *scene, const double centre[3], double distance);
+// After mjv_updateScene. A model without light gets a sun from the right, before and above; light
+// without a place, whose shadows reach only so far, is moved to where one looks.
+void picture_light(mjvScene *scene, const mjModel *m, const double centre[3]);
 
 //---------------------------------- pixels (picture_pixels.c) -------------------------------------
 

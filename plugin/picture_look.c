@@ -36,18 +36,22 @@ void picture_prepare_look(mjModel *m) {
   }
 }
 
-void picture_add_sun(mjvScene *scene, const double centre[3], double distance) {
-  static const float direction[3] = {0.30F, 0.40F, -0.87F};
+static void add_sun(mjvScene *scene) {
   if (scene->nlight >= mjMAXLIGHT) return;
-  mjvLight sun = {.attenuation = {1, 0, 0},
-                  .diffuse = {0.55F, 0.55F, 0.53F},
-                  .specular = {0.3F, 0.3F, 0.3F},
-                  .directional = 1,
-                  .castshadow = 1};
-  // Shadows reach some of the model's extent around the light: it must stand near.
-  for (int k = 0; k < 3; k++) {
-    sun.dir[k] = direction[k];
-    sun.pos[k] = (float)centre[k] - (float)distance * direction[k];
+  scene->lights[scene->nlight++] = (mjvLight){.dir = {0.30F, 0.40F, -0.87F},
+                                              .attenuation = {1, 0, 0},
+                                              .diffuse = {0.55F, 0.55F, 0.53F},
+                                              .specular = {0.3F, 0.3F, 0.3F},
+                                              .directional = 1,
+                                              .castshadow = 1};
+}
+
+void picture_light(mjvScene *scene, const mjModel *m, const double centre[3]) {
+  if (m->nlight == 0) add_sun(scene);
+  for (int i = 0; i < scene->nlight; i++) {
+    mjvLight *light = &scene->lights[i];
+    if (!light->directional || light->headlight) continue;
+    for (int k = 0; k < 3; k++)
+      light->pos[k] = (float)(centre[k] - m->stat.extent * (double)light->dir[k]);
   }
-  scene->lights[scene->nlight++] = sun;
 }

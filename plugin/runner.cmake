@@ -12,6 +12,7 @@ add_library(mujoco_runner STATIC
   bicycle_mjcf_compile.c
   bicycle_mjcf_inertia.c
   bicycle_mjcf_plan.c
+  bicycle_mjcf_readme.c
   bicycle_mjcf_scenery.c
   bicycle_mjcf_shape.c
   runner.c
@@ -49,6 +50,7 @@ add_executable(bicycle-mujoco
   main.c
   cmd_import.c
   cmd_mjcf.c
+  cmd_mjcf_set.c
   cmd_model.c
   cmd_ride.c)
 target_link_libraries(bicycle-mujoco PRIVATE mujoco_picture mujoco_runner terminal bicycle::bicycle bicycle_options)
