@@ -95,6 +95,10 @@ mjData *runner_data(runner *r) {
   return r->ride;
 }
 
+const mjData *runner_measured(const runner *r) {
+  return r->probe;
+}
+
 // An input that does not change.
 static void give_constant(double time, bike_input *out, void *user) {
   (void)time;

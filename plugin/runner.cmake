@@ -16,6 +16,8 @@ add_library(mujoco_runner STATIC
   bicycle_mjcf_scenery.c
   bicycle_mjcf_shape.c
   runner.c
+  runner_any.c
+  runner_any_ride.c
   runner_check.c
   runner_control.c
   runner_cvode.c
@@ -26,7 +28,8 @@ add_library(mujoco_runner STATIC
   runner_measure.c
   runner_posture.c
   runner_ride.c
-  runner_start.c)
+  runner_start.c
+  runner_times.c)
 target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(mujoco_runner
   PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE SUNDIALS::cvode bicycle_options m)
@@ -48,11 +51,15 @@ target_link_libraries(mujoco_picture
 
 add_executable(bicycle-mujoco
   main.c
+  cmd_columns.c
   cmd_import.c
   cmd_mjcf.c
   cmd_mjcf_set.c
   cmd_model.c
-  cmd_ride.c)
+  cmd_picture.c
+  cmd_ride.c
+  cmd_ride_any.c
+  cmd_tally.c)
 target_link_libraries(bicycle-mujoco PRIVATE mujoco_picture mujoco_runner terminal bicycle::bicycle bicycle_options)
 set_target_properties(bicycle-mujoco PROPERTIES
   INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")

@@ -72,6 +72,9 @@ bool runner_rider_moves(const runner *r);
 // The state from which mj_step continues, for tests and tools; valid until runner_free.
 mjData *runner_data(runner *r);
 
+// Where the newest instant was evaluated, sensors included; valid until runner_free.
+const mjData *runner_measured(const runner *r);
+
 // What MuJoCo says of one instant. Index 0: rear, 1: front wheel. Forces of the ground on the
 // wheel along (e_R of the rear wheel, horizontal left of it, up), N.
 typedef struct runner_instant {

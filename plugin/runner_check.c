@@ -36,12 +36,31 @@ static bool is_finite_state(const mjModel *m, const mjData *d) {
   return true;
 }
 
-static const char *first_warning(const mjData *d, const guard_report *report) {
-  if (report->warnings) return report->warning;
-  // Only the first warning of each kind in the life of a mjData is said aloud.
+static const char *first_of_counters(const mjData *d) {
   for (int i = 0; i < mjNWARNING; i++)
     if (d->warning[i].number) return mju_warningText(i, d->warning[i].lastinfo);
   return NULL;
+}
+
+static const char *first_warning(const mjData *d, const guard_report *report) {
+  // Only the first warning of each kind in the life of a mjData is said aloud.
+  return report->warnings ? report->warning : first_of_counters(d);
+}
+
+runner_status runner_check_any(const mjModel *m, const mjData *d, const guard_report *report,
+                               mjcf_error *error) {
+  if (report->failed) return fail(error, RUNNER_INVALID_ERROR, d->time, report->error);
+  if (!roll_is_installed()) return fail(error, RUNNER_INVALID_CALLBACK, d->time, "");
+  const char *warning = first_of_counters(d);
+  if (warning) return fail(error, RUNNER_INVALID_WARNING, d->time, warning);
+  return is_finite_state(m, d) ? RUNNER_OK : fail(error, RUNNER_INVALID_NOT_FINITE, d->time, "");
+}
+
+runner_status runner_check_time(const mjData *d, double from, double step, mjcf_error *error) {
+  // A reset puts the time back to zero; rounding is a millionth of this.
+  if (fabs(d->time - from - step) <= 1e-6 * step) return RUNNER_OK;
+  mjcf_fail(error, "%s (from %.6g s)", runner_status_string(RUNNER_INVALID_TIME), from);
+  return RUNNER_INVALID_TIME;
 }
 
 runner_status runner_check(const runner *r, const mjData *d, const guard_report *report, int stages,

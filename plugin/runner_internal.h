@@ -153,4 +153,24 @@ struct guard_report;
 runner_status runner_check(const runner *r, const mjData *d, const struct guard_report *report,
                            int stages, mjcf_error *error);
 
+// The same for any model; warnings count only where MuJoCo counts them: what rolling.h says of
+// discs that go on rolling does not.
+runner_status runner_check_any(const mjModel *m, const mjData *d, const struct guard_report *report,
+                               mjcf_error *error);
+
+// Whether a step brought d from that time on by one timestep.
+runner_status runner_check_time(const mjData *d, double from, double step, mjcf_error *error);
+
+//---------------------------------- times (runner_times.c) ----------------------------------------
+
+// How often `part` goes into `whole`, and whether it does so without a rest: times are typed in
+// decimals, so that 0.03/0.01 is 3 only to rounding.
+bool runner_divides(long *times, double whole, double part);
+
+// Whether duration and sample interval go together with a timestep; else a text.
+bool runner_check_times(double duration, double sample, double step, mjcf_error *error);
+
+// Of a clock that only runs forwards, s.
+double runner_seconds(void);
+
 #endif

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 runner_ride_def runner_default_ride_def(void) {
   return (runner_ride_def){
@@ -29,27 +28,10 @@ static runner_status refuse(mjcf_error *error, const char *text) {
   return RUNNER_ARGUMENT;
 }
 
-// How often `part` goes into `whole`, and whether it does so without a rest: times are typed in
-// decimals, so that 0.03/0.01 is 3 only to rounding.
-static bool divides(long *times, double whole, double part) {
-  double ratio = whole / part;
-  *times = lround(fmin(ratio, 1e15));
-  return ratio < 1e15 && *times >= 1 && fabs(ratio - (double)*times) <= 1e-9 * ratio;
-}
-
 runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjcf_error *error) {
-  double step = r->model->opt.timestep;
-  long times;
   if (!def->on_sample) return refuse(error, "a ride needs on_sample");
-  if (!(def->duration > 0 && isfinite(def->duration)))
-    return refuse(error, "the duration must be positive");
-  if (!(def->sample > 0 && def->sample <= def->duration))
-    return refuse(error, "the sample interval must be positive and at most the duration");
-  if (!(step > 0 && isfinite(step))) return refuse(error, "the model's timestep must be positive");
-  if (!divides(&times, def->sample, step))
-    return refuse(error, "the sample interval must be a multiple of the timestep");
-  if (!divides(&times, def->duration, step))
-    return refuse(error, "the duration must be a multiple of the timestep");
+  if (!runner_check_times(def->duration, def->sample, r->model->opt.timestep, error))
+    return RUNNER_ARGUMENT;
   if (!(def->lean_limit > 0 && def->lean_limit < mjPI / 2))
     return refuse(error, "the lean limit must be above 0 and below 90 deg: lying flat, the axes of "
                          "yaw and pitch are one");
@@ -192,17 +174,11 @@ static void step(void *argument) {
   mj_step(r->model, r->ride);
 }
 
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // The same stretch by CVODE.
 static runner_status advance_cvode(course *c, long number) {
-  double start = seconds();
+  double start = runner_seconds();
   runner_status status = runner_cvode_advance(c->cvode, (double)(number + 1) * c->step, c->error);
-  c->out->wall_time += seconds() - start;
+  c->out->wall_time += runner_seconds() - start;
   c->out->steps = runner_cvode_steps(c->cvode);
   c->out->evaluations = runner_cvode_evaluations(c->cvode);
   return status;
@@ -218,18 +194,15 @@ static runner_status advance(course *c, long number) {
   r->stages = 0;
   r->refused = RUNNER_OK;
   runner *before = runner_activate(r);
-  double start = seconds();
+  double start = runner_seconds();
   guard_call(&report, step, r);
-  c->out->wall_time += seconds() - start;
+  c->out->wall_time += runner_seconds() - start;
   runner_activate(before);
   int stages = r->model->opt.integrator == mjINT_RK4 ? 4 : 1;
   runner_status status = runner_check(r, r->ride, &report, stages, c->error);
   if (status != RUNNER_OK) return status;
-  // A reset puts the time back to zero; rounding is a millionth of this.
-  if (!(fabs(r->ride->time - from - c->step) <= 1e-6 * c->step)) {
-    mjcf_fail(c->error, "%s (from %.6g s)", runner_status_string(RUNNER_INVALID_TIME), from);
-    return RUNNER_INVALID_TIME;
-  }
+  status = runner_check_time(r->ride, from, c->step, c->error);
+  if (status != RUNNER_OK) return status;
   r->ride->time = (double)(number + 1) * c->step;
   c->out->steps++;
   c->out->evaluations += stages;
@@ -238,8 +211,8 @@ static runner_status advance(course *c, long number) {
 
 static runner_status ride(course *c) {
   long steps, steps_per_sample;
-  divides(&steps, c->def->duration, c->step);
-  divides(&steps_per_sample, c->def->sample, c->step);
+  runner_divides(&steps, c->def->duration, c->step);
+  runner_divides(&steps_per_sample, c->def->sample, c->step);
   runner_status status = runner_measure(&c->at, c->r, c->error);
   if (status != RUNNER_OK) return status;
   runner_settle_start(&c->at, c->r);

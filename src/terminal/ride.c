@@ -50,10 +50,18 @@ void term_ride_input(double time, bike_input *out, void *user) {
     *out = ride->options->constant;
 }
 
+static bool should_stop(const term_ride *ride) {
+  return interrupted || (ride->output.stream && ferror(ride->output.stream));
+}
+
 bool term_ride_take(term_ride *ride, const bike_sample *sample, const bike_sample_more *more) {
   term_record_add(&ride->record, sample, more);
-  bool lost = ride->output.stream && ferror(ride->output.stream);
-  return interrupted || lost;
+  return should_stop(ride);
+}
+
+bool term_ride_count(term_ride *ride, double time) {
+  term_record_count(&ride->record, time);
+  return should_stop(ride);
 }
 
 void term_ride_stop(term_ride *ride) {
@@ -111,9 +119,8 @@ static void tell(const term_ride *ride, const term_ride_outcome *outcome) {
                outcome->note);
 }
 
-// Ends the output: kept where rows mean something, also those before an accident. False if there is
-// nothing left to report; `code` then says how the program ends.
-static bool close_output(term_ride *ride, term_exit *code) {
+// Kept where rows mean something, also those before an accident.
+bool term_ride_close(term_ride *ride, term_exit *code) {
   bike_file_error error;
   if (*code == TERM_USAGE || ride->record.count == 0) {
     bike_output_abort(&ride->output);
@@ -127,7 +134,7 @@ static bool close_output(term_ride *ride, term_exit *code) {
 }
 
 term_exit term_ride_end(term_ride *ride, const term_ride_outcome *outcome, term_exit code) {
-  if (close_output(ride, &code)) {
+  if (term_ride_close(ride, &code)) {
     tell(ride, outcome);
     if (ride->options->show.json && !print_json(ride, outcome))
       code = term_fail_bike(BIKE_ERROR_MEMORY, ride->options->start.file);

@@ -39,6 +39,10 @@ void term_ride_input(double time, bike_input *out, void *user);
 // Records a sample. True if the ride should stop: interrupted, or its output is lost.
 bool term_ride_take(term_ride *ride, const bike_sample *sample, const bike_sample_more *more);
 
+// The same for rows that the caller writes itself, to output.stream where that is not NULL: counts
+// one at a time, shows progress.
+bool term_ride_count(term_ride *ride, double time);
+
 // After the engine's ride, before anything is said. An interrupt (SIGINT) ends the program here,
 // and leaves no output.
 void term_ride_stop(term_ride *ride);
@@ -46,6 +50,10 @@ void term_ride_stop(term_ride *ride);
 // Ends the output and reports. `code` is how the ride ended; rows are kept unless it is TERM_USAGE
 // or there are none. Returns how the program ends.
 term_exit term_ride_end(term_ride *ride, const term_ride_outcome *outcome, term_exit code);
+
+// The first half of that, for who reports otherwise: rows are kept unless `code` is TERM_USAGE or
+// there are none. False if there is nothing left to report; `code` is then how the program ends.
+bool term_ride_close(term_ride *ride, term_exit *code);
 
 // Leaves no half-written output; does nothing to a ride that is zeroed.
 void term_ride_free(term_ride *ride);

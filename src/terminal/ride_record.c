@@ -25,14 +25,18 @@ static void add_balance(term_record *record, const bike_sample *sample,
 void term_record_add(term_record *record, const bike_sample *sample, const bike_sample_more *more) {
   add_balance(record, sample, more);
   if (record->rows && record->count == 0) bike_table_header(record->rows);
-  record->count++;
   bike_columns(record->last, sample, record->convention);
   if (record->rows) bike_table_row(record->rows, sample, record->convention);
   for (int i = 0; record->columns && i < BIKE_COLUMN_COUNT; i++)
     json_array_append_new(json_object_get(record->columns, bike_column_names()[i]),
                           term_json_number(record->last[i]));
+  term_record_count(record, sample->time);
+}
+
+void term_record_count(term_record *record, double time) {
+  record->count++;
   if (record->shows_progress)
-    term_progress_show(&record->progress, "riding", sample->time / record->duration);
+    term_progress_show(&record->progress, "riding", time / record->duration);
 }
 
 json_t *term_record_end(const term_record *record, const bike_sample *end) {

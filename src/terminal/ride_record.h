@@ -33,6 +33,9 @@ void term_record_free(term_record *record);
 // start writes nothing.
 void term_record_add(term_record *record, const bike_sample *sample, const bike_sample_more *more);
 
+// One more row, and how far the ride is.
+void term_record_count(term_record *record, double time);
+
 // A sample under the names of its columns; NULL: the last one, which there must be.
 json_t *term_record_end(const term_record *record, const bike_sample *end);
 
