@@ -87,11 +87,13 @@ roll_error roll_check_sensors(const mjModel *m) {
   return ROLL_OK;
 }
 
-// MuJoCo computes energies only where a flag asks for them.
+// MuJoCo computes energies only where a flag asks for them: here, of a model that says so.
 static void answer_of_model(mjtNum *data, const question *q, const mjModel *m, mjData *d) {
   if (!(m->opt.enableflags & mjENBL_ENERGY)) {
-    mj_energyPos(m, d);
-    mj_energyVel(m, d);
+    mjModel with_energy = *m;
+    with_energy.opt.enableflags |= mjENBL_ENERGY;
+    mj_energyPos(&with_energy, d);
+    mj_energyVel(&with_energy, d);
   }
   const mjtNum energy[3] = {d->energy[0], d->energy[1], d->energy[0] + d->energy[1]};
   memcpy(data, (const char *)energy + q->quantity->offset, sizeof *data);

@@ -140,6 +140,11 @@ static void test_bad_sensors(void **unused) {
   m->sensor_dim[id] = 1;
   m->sensor_needstage[id] = mjSTAGE_POS;
   assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
+  m->sensor_needstage[id] = mjSTAGE_ACC;
+  memcpy(name, "rolling:model:energy", sizeof "rolling:model:energy");
+  assert_int_equal(roll_check(&element, m), ROLL_OK);
+  name[strlen(name) - 1] = 'z'; // the model has no such quantity
+  assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
   mj_deleteModel(m);
 }
 

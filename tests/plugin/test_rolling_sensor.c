@@ -96,6 +96,43 @@ static void test_lift_off(void **unused) {
   mj_deleteModel(m);
 }
 
+// Energy of the whole model: what mj_forward says where the flag asks for it, and without it.
+static void check_energy(const char *name, const char *quantity, int flag) {
+  char text[1500];
+  snprintf(
+      text, sizeof text,
+      "<mujoco><option><flag energy=\"%s\"/></option>%s"
+      "<worldbody><body name=\"b\" pos=\"0 0 0.3\"><joint type=\"slide\" axis=\"1 0 0\"/>"
+      "<joint type=\"slide\" axis=\"0 0 1\"/><joint type=\"hinge\" axis=\"0 1 0\"/>"
+      "<inertial pos=\"0 0 0\" mass=\"2\" diaginertia=\"0.045 0.09 0.045\"/></body></worldbody>"
+      "<sensor><user name=\"%s:%s\" objtype=\"body\" objname=\"b\" datatype=\"real\" dim=\"1\" "
+      "needstage=\"acc\"/></sensor></mujoco>",
+      flag ? "enable" : "disable",
+      strcmp(name, "marked") == 0 ? "<custom><tuple name=\"rolling_discs\"><element "
+                                    "objtype=\"body\" objname=\"b\" prm=\"0.3\"/></tuple>"
+                                    "</custom>"
+                                  : "",
+      "rolling:model", quantity);
+  mjModel *m = load_text(text);
+  mjData *d = mj_makeData(m);
+  d->qvel[0] = 3, d->qvel[2] = 10;
+  mj_forward(m, d);
+  // m g h = 2 * 9.81 * 0.3;  m v^2/2 + J w^2/2 = 9 + 4.5
+  double potential = strcmp(quantity, "kinetic") == 0 ? 0 : 5.886;
+  double kinetic = strcmp(quantity, "potential") == 0 ? 0 : 13.5;
+  assert_near(d->sensordata[0], potential + kinetic, 1e-14);
+  assert_int_equal(roll_check(NULL, m), strcmp(name, "marked") == 0 ? ROLL_OK : ROLL_NO_MARKER);
+  mj_deleteData(d);
+  mj_deleteModel(m);
+}
+
+static void test_energy_of_the_model(void **unused) {
+  (void)unused;
+  static const char *const quantities[] = {"energy", "kinetic", "potential"};
+  for (int i = 0; i < 12; i++)
+    check_energy(i / 6 ? "marked" : "unmarked", quantities[i % 3], i / 3 % 2);
+}
+
 static int calls;
 
 static void other_sensor(const mjModel *m, mjData *d, int stage) {
@@ -130,6 +167,7 @@ int main(void) {
       cmocka_unit_test(test_forces_balance_in_motion),
       cmocka_unit_test(test_forces_balance_on_the_stop),
       cmocka_unit_test(test_lift_off),
+      cmocka_unit_test(test_energy_of_the_model),
       cmocka_unit_test(test_sensors_are_chained),
   };
   return cmocka_run_group_tests(tests, install_rolling, uninstall_rolling);
