@@ -138,7 +138,7 @@ term_exit cmd_write_set(const cmd_set *set) {
   if (code != TERM_DONE) return code;
   code = fill(files, set, &n, &error);
   if (code == TERM_DONE)
-    code = term_folder_write(set->output, files, set->no_picture ? PICTURE : FILES);
+    code = term_folder_write(set->output, files, FILES);
   else
     term_fail(code, "%s: %s", set->file, error.text);
   for (int i = 0; i < FILES; i++) free((void *)files[i].bytes);

@@ -147,10 +147,6 @@ static term_exit ride(rider *self) {
   snprintf(note, sizeof note, ", slip %.1e m/s, height error %.1e m, %.0f times real time",
            slip_of(self), height_of(self), factor);
   note_lifts(self, &result);
-  if (self->ride.record.count > 0) {
-    cmd_discs_tell(self->discs, 2);
-    cmd_sensors_tell(&self->sensors);
-  }
   const term_ride_outcome outcome = {
       .bicycle = runner_model(self->run)->names, // the model's name comes first
       .end_time = result.end_time,
@@ -161,7 +157,12 @@ static term_exit ride(rider *self) {
       .error = whole ? NULL : error.text,
       .note = note,
       .more = more_json(self, &result, factor)};
-  return cmd_shot_end(&self->shot, term_ride_end(&self->ride, &outcome, code));
+  code = term_ride_end(&self->ride, &outcome, code);
+  if (self->ride.record.count > 0 && code != TERM_USAGE) {
+    cmd_discs_tell(self->discs, 2);
+    cmd_sensors_tell(&self->sensors);
+  }
+  return cmd_shot_end(&self->shot, code);
 }
 
 //---------------------------------- preparation ---------------------------------------------------

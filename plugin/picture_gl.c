@@ -29,13 +29,16 @@ static bool find(void *out, void *library, const char *name) {
 static bool load(osmesa *api, mjcf_error *error) {
   void *library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
   if (!library) library = dlopen("libOSMesa.so", RTLD_NOW | RTLD_LOCAL);
-  if (!library)
-    return mjcf_fail(error, "no OSMesa (package libosmesa6) to render with: %s", dlerror());
+  if (!library) {
+    const char *why = dlerror();
+    return mjcf_fail(error, "no OSMesa to render with (package libosmesa6)%s%s", why ? ": " : "",
+                     why ? why : "");
+  }
   if (find(&api->create, library, "OSMesaCreateContextAttribs") &&
       find(&api->make_current, library, "OSMesaMakeCurrent") &&
       find(&api->destroy, library, "OSMesaDestroyContext"))
     return true;
-  return mjcf_fail(error, "this OSMesa cannot be used: %s", dlerror());
+  return mjcf_fail(error, "this OSMesa lacks functions of OSMesa 11.2 to render with");
 }
 
 // MuJoCo 2.2 draws with the fixed pipeline of OpenGL 1.5: a compatibility profile.

@@ -50,26 +50,44 @@ static axes find_axes(const mjvCamera *camera) {
                 {cos(e) * cos(a), cos(e) * sin(a), sin(e)}};
 }
 
-// Extents of all that is seen along the two axes of the picture and the third.
-typedef struct extents {
-  double low[3], high[3];
-} extents;
+// How far all that is seen reaches in the picture, as shares of half its height.
+typedef struct reach {
+  double low[2], high[2]; // to the right, up
+} reach;
 
-static extents measure(const mjModel *m, const mjData *d, const axes *view) {
-  const double *const axis[3] = {view->right, view->up, view->away};
-  extents e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static reach project(const mjModel *m, const mjData *d, const mjvCamera *camera, double slope) {
+  axes view = find_axes(camera);
+  const double *const axis[2] = {view.right, view.up};
+  reach out = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   bool shapes = picture_has_shapes(m);
   int count = shapes ? m->ngeom : m->nbody;
   ball b;
   for (int i = 0; i < count; i++) {
     if (!find_ball(&b, m, d, i, shapes)) continue;
-    for (int k = 0; k < 3; k++) {
-      double place = mju_dot3(axis[k], b.centre);
-      e.low[k] = fmin(e.low[k], place - b.radius);
-      e.high[k] = fmax(e.high[k], place + b.radius);
+    double from[3];
+    mju_sub3(from, b.centre, camera->lookat);
+    // What comes too near to be seen whole is seen from further away in the next turn.
+    double depth = fmax(camera->distance + mju_dot3(view.away, from), 2 * b.radius) * slope;
+    // Rays at the edge touch a ball somewhat before its centre.
+    double radius = b.radius * hypot(1, slope);
+    for (int k = 0; k < 2; k++) {
+      double place = mju_dot3(axis[k], from);
+      out.low[k] = fmin(out.low[k], (place - radius) / depth);
+      out.high[k] = fmax(out.high[k], (place + radius) / depth);
     }
   }
-  return e;
+  return out;
+}
+
+// One turn: to the middle of what is seen, and so far away that it fills nine tenths.
+static void improve(mjvCamera *camera, const reach *r, double slope, double aspect) {
+  static const double filled = 0.9;
+  axes view = find_axes(camera);
+  const double *const axis[2] = {view.right, view.up};
+  for (int k = 0; k < 2; k++)
+    mju_addToScl3(camera->lookat, axis[k], (r->low[k] + r->high[k]) / 2 * slope * camera->distance);
+  double wide = (r->high[0] - r->low[0]) / 2 / aspect, high = (r->high[1] - r->low[1]) / 2;
+  camera->distance *= fmax(wide, high) / filled;
 }
 
 // Direction of the x axis of the first body that moves: forward, in most models.
@@ -84,18 +102,13 @@ void picture_frame(mjvCamera *camera, const mjModel *m, const mjData *d, picture
   camera->type = mjCAMERA_FREE;
   camera->azimuth = find_heading(m, d) + 120;
   camera->elevation = -12;
-  axes view = find_axes(camera);
-  extents e = measure(m, d, &view);
-  if (!(e.high[0] > e.low[0])) return; // nothing moves: MuJoCo's own view
-  double middle[3], half[3];
-  for (int k = 0; k < 3; k++)
-    middle[k] = (e.low[k] + e.high[k]) / 2, half[k] = (e.high[k] - e.low[k]) / 2;
-  mju_scl3(camera->lookat, view.right, middle[0]);
-  mju_addToScl3(camera->lookat, view.up, middle[1]);
-  mju_addToScl3(camera->lookat, view.away, middle[2]);
-  // The near side must fit the angle of view, with a tenth to spare. Depth mostly leaves room that
-  // is not needed at the corners: half of it is taken.
-  double slope = tan(m->vis.global.fovy * degree / 2);
-  double wide = half[0] * size.height / size.width;
-  camera->distance = 1.1 * fmax(wide, half[1]) / slope + half[2] / 2;
+  mju_copy3(camera->lookat, d->subtree_com);
+  camera->distance = 3 * m->stat.extent;
+  double slope = tan(m->vis.global.fovy * degree / 2), aspect = (double)size.width / size.height;
+  enum { TURNS = 20 }; // each leaves less than half of what was wrong
+  for (int i = 0; i < TURNS; i++) {
+    reach r = project(m, d, camera, slope);
+    if (!(r.high[0] > r.low[0])) return; // nothing moves: MuJoCo's own view
+    improve(camera, &r, slope, aspect);
+  }
 }

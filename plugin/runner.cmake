@@ -36,7 +36,6 @@ target_link_libraries(mujoco_runner
 
 # Pictures: in a target of its own, so that nothing else needs libpng, and nothing at all loads a GL
 # before the first picture.
-find_package(PNG REQUIRED)
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
 add_library(mujoco_picture STATIC
   picture.c

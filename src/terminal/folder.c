@@ -110,6 +110,7 @@ static void remove_folder(const char *path, const term_file *files, int count) {
 
 // 0 or errno.
 static int write_file(const char *folder, const term_file *file) {
+  if (!file->bytes) return 0;
   char *path = NULL;
   if (asprintf(&path, "%s/%s", folder, file->name) < 0) return ENOMEM;
   FILE *stream = fopen(path, "wxe");

@@ -9,7 +9,7 @@
 
 typedef struct term_file {
   const char *name;  // without a slash
-  const void *bytes; //
+  const void *bytes; // NULL: not to be written, but one that is there may go
   size_t size;       //
 } term_file;
 

@@ -1,10 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-foreach(name test_bicycle_mjcf test_import test_runner test_runner_ride test_runner_long test_runner_rider
+foreach(name test_bicycle_mjcf test_bicycle_mjcf_apart test_import test_runner test_runner_any test_runner_ride test_runner_long test_runner_rider
              test_runner_faults)
   bike_test(NAME ${name} SOURCES ${name}.c
     LIBS mujoco_runner bicycle_oracle bicycle_test_reference bicycle::bicycle TIMEOUT 120)
 endforeach()
 
-bike_test(NAME test_commands SOURCES test_commands.c ${PROJECT_SOURCE_DIR}/tests/cli/run.c
-  LIBS terminal TIMEOUT 120)
-add_dependencies(test_commands bicycle-command bicycle-mujoco)
+foreach(name test_commands test_commands_any test_commands_set)
+  bike_test(NAME ${name} SOURCES ${name}.c ${PROJECT_SOURCE_DIR}/tests/cli/run.c
+    LIBS terminal TIMEOUT 120)
+  add_dependencies(${name} bicycle-command bicycle-mujoco)
+endforeach()
+
+# A machine without OSMesa; a sanitizer's own library must come before anything preloaded.
+if(NOT BICYCLE_SANITIZE)
+  add_library(no_osmesa MODULE no_osmesa.c)
+  target_link_libraries(no_osmesa PRIVATE bicycle_options ${CMAKE_DL_LIBS})
+  add_dependencies(test_commands_any no_osmesa)
+  set_property(TEST test_commands_any PROPERTY ENVIRONMENT NO_OSMESA=$<TARGET_FILE:no_osmesa>)
+endif()
+
+bike_test(NAME test_picture SOURCES test_picture.c LIBS mujoco_picture PNG::PNG TIMEOUT 120)
+target_link_options(test_picture PRIVATE -Wl,--wrap=dlopen)

@@ -61,7 +61,8 @@ static const run_wrong commands[] = {
     {MODEL_RIDE("text.mjb"), "text.mjb"},
     {MODEL_RIDE("binary.xml"), "binary.xml"},
     {MODEL_RIDE("no_marker.xml"), "no_marker.xml: not a bicycle: there is no tuple"},
-    {MODEL_RIDE("no_steer.xml"), "no_steer.xml: not a bicycle: there is no joint 'steer'"},
+    {MODEL_RIDE("no_steer.xml --speed 5"), "only for a bicycle (not a bicycle: there is no joint"},
+    {MODEL_RIDE("unmarked.xml"), "unmarked.xml: not a bicycle: there is no body 'rear_frame'"},
     {MODEL_RIDE("no_key.xml"), "no_key.xml: the model has no keyframe 'test'"},
     {MODEL_RIDE("nan_key.xml"), "nan_key.xml: keyframe 'test'"},
     {MODEL_RIDE("off_key.xml"), "off_key.xml: keyframe 'test'"},
@@ -133,6 +134,7 @@ static int enter(void **state) {
       "edit() { sed \"$1\" right.xml > $2; ! cmp -s right.xml $2; }; "
       "edit 's/rolling_discs/other/' no_marker.xml; edit 's/name=\"steer\"/name=\"st\"/' "
       "no_steer.xml; "
+      "echo '<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>' > unmarked.xml; "
       "edit '/<keyframe>/,/<.keyframe>/d' no_key.xml; "
       "edit 's/qpos=\"0/qpos=\"nan/' nan_key.xml; edit 's/qpos=\"0 0 0/qpos=\"0 0 0.1/' "
       "off_key.xml; "
@@ -221,8 +223,9 @@ static void mjcf_prints_what_it_writes(void **state) {
 static void ride_json_has_its_keys(void **state) {
   (void)state;
   static const char *const keys[] = {
-      "bicycle", "convention", "end_time",     "complete", "rows",  "events",           "end",
-      "energy",  "slip",       "height_error", "timestep", "steps", "real_time_factor", "samples"};
+      "bicycle",  "convention", "end_time",         "complete", "rows",
+      "events",   "end",        "energy",           "slip",     "height_error",
+      "timestep", "steps",      "real_time_factor", "samples",  "discs"};
   json_t *ride = run_json("bicycle mujoco ride right.mjb --json --convention sae " TIMES);
   for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
     if (!json_object_get(ride, keys[i])) fail_msg("no key '%s'", keys[i]);
