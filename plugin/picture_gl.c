@@ -73,7 +73,10 @@ picture_gl *picture_gl_create(picture_size size, mjcf_error *error) {
 
 void picture_gl_free(picture_gl *gl) {
   if (!gl) return;
-  if (gl->context) gl->api.destroy(gl->context);
+  if (gl->context) {
+    gl->api.make_current(NULL, NULL, 0, 0, 0);
+    gl->api.destroy(gl->context);
+  }
   free(gl->buffer);
   free(gl);
 }
