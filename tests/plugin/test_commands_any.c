@@ -287,6 +287,17 @@ static void pictures_are_of_their_moment(void **state) {
   run_free(&result);
 }
 
+// A disk that is full when the picture comes: the rows are kept, of the picture there is no trace.
+static void half_a_picture_is_none(void **state) {
+  (void)state;
+  run_result result = run_command("trap '' XFSZ; ulimit -f 20; " DISC "--picture x.png; s=$?; "
+                                  "ls out.csv x.png .*.tmp 2>/dev/null; rm out.csv; exit $s");
+  assert_int_equal(result.status, 2);
+  assert_string_equal(result.out, "out.csv\n");
+  assert_non_null(strstr(result.err, "x.png: File too large"));
+  run_free(&result);
+}
+
 // Nothing of a ride that is refused or of a picture that cannot be made, not even the rows before.
 static void no_osmesa_is_said(void **state) {
   (void)state;
@@ -316,6 +327,7 @@ int main(void) {
       cmocka_unit_test(sensors_are_told_of),
       cmocka_unit_test(pictures_are_rendered),
       cmocka_unit_test(pictures_are_of_their_moment),
+      cmocka_unit_test(half_a_picture_is_none),
       cmocka_unit_test(no_osmesa_is_said),
   };
   return cmocka_run_group_tests(tests, enter, run_leave_group);

@@ -17,6 +17,11 @@ static const run_wrong commands[] = {
     {"bicycle mujoco mjcf roadster -o other/", "also holds 'benchmark."},
     {"bicycle mujoco mjcf roadster -o //", "also holds"},
     {"bicycle mujoco mjcf roadster -o /proc/set/", "/proc"},
+    // Files of at most 10 kB: a disk that is full half-way.
+    {"trap '' XFSZ; ulimit -f 20; bicycle mujoco mjcf roadster --no-picture -o set/",
+     "set: File too large"},
+    {"trap '' XFSZ; ulimit -f 20; bicycle mujoco mjcf benchmark --no-picture -o other/",
+     "other: File too large"},
     {"bicycle mujoco mjcf nosuch -o set/", "nosuch"},
     {"bicycle mujoco mjcf roadster -o set", "nor is it a folder (X/)"},
     {"bicycle mujoco mjcf roadster -o set.xml --no-picture", "--no-picture"},
@@ -49,6 +54,15 @@ static void expect(const char *command, const char *expected) {
   char *out = output_of(command);
   assert_string_equal(out, expected);
   free(out);
+}
+
+// What was there before a set that could not be written is there still.
+static void an_earlier_set_survives(void **state) {
+  (void)state;
+  expect("cd other; sha256sum * > ../sums; cd ..; "
+         "(trap '' XFSZ; ulimit -f 20; bicycle mujoco mjcf benchmark --root free --no-picture "
+         "-o other/ 2>/dev/null); cd other; sha256sum --quiet -c ../sums; rm ../sums",
+         "");
 }
 
 static const char *const whole = "README.md\nroadster.png\nroadster.xml\nroadster.yml\nscene.xml\n";
@@ -144,9 +158,13 @@ static void any_file_name_will_do(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_wrong_command_is_refused), cmocka_unit_test(the_set_is_whole),
-      cmocka_unit_test(it_rides_as_the_single_file),    cmocka_unit_test(it_is_found_from_anywhere),
-      cmocka_unit_test(an_earlier_set_is_replaced),     cmocka_unit_test(any_file_name_will_do),
+      cmocka_unit_test(every_wrong_command_is_refused),
+      cmocka_unit_test(an_earlier_set_survives),
+      cmocka_unit_test(the_set_is_whole),
+      cmocka_unit_test(it_rides_as_the_single_file),
+      cmocka_unit_test(it_is_found_from_anywhere),
+      cmocka_unit_test(an_earlier_set_is_replaced),
+      cmocka_unit_test(any_file_name_will_do),
   };
   return cmocka_run_group_tests(tests, enter, run_leave_group);
 }
