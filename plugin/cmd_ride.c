@@ -12,22 +12,21 @@
 static const char example[] =
     "Example: bicycle mujoco ride roadster --speed 6 --lean-rate 0.2 --time 10 --sample 0.01 "
     "-o ride.csv\n"
-    "         bicycle mujoco ride roadster.xml --time 10 --sample 0.01\n";
+    "         bicycle mujoco ride roadster.xml --time 10 --sample 0.01 --picture end.png\n";
 
 static const char documentation[] =
     "Rides a bicycle in MuJoCo and writes the same rows as `bicycle ride`. FILE is a bicycle file, "
     "the name of a shipped bicycle, or a model (.xml, .mjb) with the bodies and joints that "
     "`bicycle mujoco mjcf` writes; a model starts from its keyframe 'test' unless a state is "
-    "given. "
+    "given. Any other model in which something rolls (libmujoco_rolling) rides in its own "
+    "coordinates: rows of its joints, discs and sensors. "
     "A step at which MuJoCo warns, resets its time or loses the rolling constraint ends the ride "
     "with exit status 3. Events are those of `bicycle ride`, but for the end of the model's "
-    "validity: "
-    "where its coordinates end MuJoCo's go on, and with them the ride. T and DT are multiples of "
-    "the timestep. So should the times of --input "
-    "be: RK4 loses its order in a step within which the input has a kink, and a line on stderr "
-    "says when. A column rider_offset of a bicycle's input moves the rider, a driven joint then; "
-    "in a "
-    "model he moves if it was written with --moving-rider.";
+    "validity: where its coordinates end MuJoCo's go on, and with them the ride. T and DT are "
+    "multiples of the timestep. So should the times of --input be: RK4 loses its order in a step "
+    "within which the input has a kink, and a line on stderr says when. A column rider_offset of a "
+    "bicycle's input moves the rider, a driven joint then; in a model he moves if it was written "
+    "with --moving-rider.";
 
 enum { KEY_SENSORS = TERM_KEY_FIRST, KEY_PROJECT };
 

@@ -9,7 +9,7 @@
 static const term_command commands[] = {
     {"mjcf", cmd_mjcf, "Write a bicycle as a MuJoCo model"},
     {"import", cmd_import, "Read the bicycle out of anybody's MuJoCo model"},
-    {"ride", cmd_ride, "Ride it in MuJoCo: the rows of `bicycle ride`"},
+    {"ride", cmd_ride, "Ride it, or any model that rolls, in MuJoCo"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
