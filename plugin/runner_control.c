@@ -47,11 +47,11 @@ void runner_place_rider(runner *r, mjData *d) {
 }
 
 double runner_work(const runner *r) {
-  return r->work + (r->map.rider.moves ? r->ride->act[r->map.rider.work] : 0);
+  return r->work + (r->map.rider.works ? r->ride->act[r->map.rider.work] : 0);
 }
 
 double runner_probe_power(const runner *r) {
-  return r->probe_power + (r->map.rider.moves ? r->probe->act_dot[r->map.rider.work] : 0);
+  return r->probe_power + (r->map.rider.works ? r->probe->act_dot[r->map.rider.work] : 0);
 }
 
 // Heading e_R of the rear wheel: horizontal, square to its axle n.  e_R = n x z / |n x z|

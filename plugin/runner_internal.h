@@ -25,7 +25,8 @@ typedef struct runner_wheel {
 
 // A rider who moves: a driven joint that follows userdata (rolling.h).
 typedef struct runner_rider {
-  bool moves;   // otherwise he is part of the frame
+  bool moves;   // as an input says; otherwise he is part of the frame, or moves by himself
+  bool works;   // he moves, by whomever
   int qpos;     // address
   int dof;      // address
   int userdata; // address of his motion

@@ -107,19 +107,21 @@ static bool points_right(const mjModel *m, int joint, int frame) {
          mju_norm3(m->body_quat + 4 * body + 1) <= direction_tolerance;
 }
 
-// The rider whose place userdata says; one who sways by a numeric of his own needs nobody.
+// The rider whose place userdata says; one who sways by a numeric of his own needs nobody, but does
+// work all the same.
 static void find_rider(runner_rider *out, const mjModel *m, int frame) {
   int joint = mj_name2id(m, mjOBJ_JOINT, "rider");
   int tuple = mj_name2id(m, mjOBJ_TUPLE, "rolling_driven");
   int actuator = mj_name2id(m, mjOBJ_ACTUATOR, "rolling:rider:work");
   if (joint < 0 || tuple < 0 || actuator < 0 || !points_right(m, joint, frame)) return;
-  if (mj_name2id(m, mjOBJ_NUMERIC, "driven:rider") >= 0) return;
+  bool by_himself = mj_name2id(m, mjOBJ_NUMERIC, "driven:rider") >= 0;
   // Activations belong to the last actuators.
   int work = actuator - (m->nu - m->na);
   if (work < 0) return;
   for (int i = m->tuple_adr[tuple]; i < m->tuple_adr[tuple] + m->tuple_size[tuple]; i++)
     if (m->tuple_objtype[i] == mjOBJ_JOINT && m->tuple_objid[i] == joint)
-      *out = (runner_rider){.moves = true,
+      *out = (runner_rider){.moves = !by_himself,
+                            .works = true,
                             .qpos = m->jnt_qposadr[joint],
                             .dof = m->jnt_dofadr[joint],
                             .userdata = (int)m->tuple_objprm[i],
