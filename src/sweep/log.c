@@ -116,7 +116,7 @@ int sweep_log_open(sweep_log *out, const char *path, const sweep_spec *spec, boo
   int code = open_file(out, path, error);
   char *header = code ? NULL : sweep_log_header(spec);
   if (!code && !header) code = bike_message(error, BIKE_ERROR_MEMORY, "out of memory");
-  if (!code) {
+  if (!code && header) {
     code = fresh ? begin(out, header, error) : resume(out, header, visit, user, damaged, error);
   }
   free(header);

@@ -27,9 +27,10 @@ seconds() { # COMMAND: wall clock from start to table, processor time of all its
 }
 
 sweep='bicycle sweep rides.yml --fresh'
+# shellcheck disable=SC2016 # expanded by the shell that runs it
 shards='for k in 1 2; do '$sweep' -o s --threads 1 --shard $k/2 & done; wait
   bicycle sweep merge s.*of2.log -o s.csv'
-for round in $(seq "$rounds"); do
+for _ in $(seq "$rounds"); do
   seconds "$sweep -o a --threads 1" >>one_thread
   seconds "$sweep -o b --threads 2" >>two_threads
   seconds "$shards" >>two_shards

@@ -100,6 +100,7 @@ static void signals_leave_a_valid_log(void **state) {
   for (int i = 0; i < 2; i++) {
     // 600 rides: more than can be done before the signal comes
     sweep_run(0, "sed 's/draws: 5/draws: 50/' rides.yml > many.yml; rm -f many.log");
+    // what a shell runs in the background ignores SIGINT otherwise, and so does the sweep
     char command[256];
     snprintf(command, sizeof command,
              "env --default-signal=INT bicycle sweep many.yml -o many --threads 2 & p=$!; while ! "
