@@ -225,6 +225,32 @@ static void test_ridden_on_its_own_contacts(void **state) {
   runner_free(r);
 }
 
+// Its wheels bounce more often than there is room for events; what ended the ride is told all the
+// same.
+static void test_fall_after_many_lifts_is_told(void **state) {
+  (void)state;
+  runner_status status;
+  runner_sample last;
+  runner_ride_result result;
+  mjcf_error error = {""};
+  runner *r = runner_import_as_is(SOMEBODYS, &status, &error);
+  if (!r) fail_msg("%s", error.text);
+  runner_model(r)->opt.timestep = 1e-3;
+  runner_model(r)->opt.integrator = mjINT_RK4;
+  const bike_state start = {.speed = 5, .lean_rate = 0.2};
+  assert_int_equal(runner_start(r, &start, &error), RUNNER_OK);
+  runner_ride_def def = runner_default_ride_def();
+  def.on_sample = keep_last;
+  def.user = &last;
+  status = runner_ride(&result, r, &def, &error);
+  if (status != RUNNER_OK) fail_msg("%s", error.text);
+  assert_false(result.complete);
+  assert_true(result.event_count > BIKE_MAX_EVENTS);
+  assert_int_equal(result.events[BIKE_MAX_EVENTS - 1].kind, BIKE_EVENT_LEAN_LIMIT);
+  assert_near(result.events[BIKE_MAX_EVENTS - 1].time, result.end_time, 0);
+  runner_free(r);
+}
+
 // What its marker makes to roll is not asked to do otherwise.
 static void test_marked_model_is_not_ridden_on_contacts(void **state) {
   (void)state;
@@ -311,6 +337,7 @@ int main(void) {
       cmocka_unit_test(test_fork_first),
       cmocka_unit_test(test_ridden_without_an_edit),
       cmocka_unit_test(test_ridden_on_its_own_contacts),
+      cmocka_unit_test(test_fall_after_many_lifts_is_told),
       cmocka_unit_test(test_marked_model_is_not_ridden_on_contacts),
       cmocka_unit_test(test_refusals_say_why),
       cmocka_unit_test(test_missing_file),

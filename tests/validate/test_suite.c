@@ -5,9 +5,11 @@
 #include "validate_support.h"
 
 #include <report.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suite.h>
+#include <time.h>
 
 enum { MOST_SCENARIOS = 8 };
 
@@ -109,6 +111,23 @@ static void test_first_problem_is_told(void **state) {
 
 //---------------------------------- faults of the whole process -----------------------------------
 
+static atomic_int riding, disturbed;
+
+// Rides long enough for all threads to be at it.
+static term_exit ride_slowly(trace *out, void *instance, const engine_ride *asked, problem *p) {
+  const struct timespec while_others_begin = {0, 100000000};
+  atomic_fetch_add(&riding, 1);
+  nanosleep(&while_others_begin, NULL);
+  term_exit code = engine_mujoco.ride(out, instance, asked, p);
+  atomic_fetch_sub(&riding, 1);
+  return code;
+}
+
+static term_exit rob_alone(trace *out, void *instance, const engine_ride *asked, problem *p) {
+  atomic_fetch_add(&disturbed, atomic_load(&riding));
+  return support_robbed_ride(out, instance, asked, p);
+}
+
 // An engine that robs the process of its callback, and says so, is played when nobody else is.
 static void test_alone_disturbs_nobody(void **state) {
   (void)state;
@@ -119,12 +138,14 @@ static void test_alone_disturbs_nobody(void **state) {
                                 {"d", NULL, NULL}};
   suite s;
   problem p = {""};
-  engine robber = engine_mujoco;
-  robber.ride = support_robbed_ride;
+  engine robber = engine_mujoco, slow = engine_mujoco;
+  robber.ride = rob_alone;
   robber.alone = true;
+  slow.ride = ride_slowly;
   load(&s, all, 5);
-  s.scenarios[1].candidate.engine = &robber;
+  for (size_t i = 0; i < 5; i++) s.scenarios[i].candidate.engine = i == 1 ? &robber : &slow;
   assert_int_equal(suite_play(&s, 3, &p), TERM_DONE);
+  assert_int_equal(disturbed, 0);
   for (size_t i = 0; i < 5; i++)
     assert_int_equal(s.comparisons[i].verdict, i == 1 ? VERDICT_INVALID : VERDICT_AGREE);
   assert_non_null(strstr(s.comparisons[1].cause, "mjcb_control"));
