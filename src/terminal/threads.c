@@ -16,6 +16,6 @@ int term_processors(void) {
 int term_threads_of(const char *option, const char *text) {
   long threads;
   if (!term_parse_integer(&threads, text, 1, TERM_MOST_THREADS))
-    term_usage("%s: '%s' is not a number from 1 to %d", option, text, TERM_MOST_THREADS);
+    term_usage("%s: '%s' is not a whole number from 1 to %d", option, text, TERM_MOST_THREADS);
   return (int)threads;
 }
