@@ -5,6 +5,7 @@
 #define BICYCLE_LANE_MATH_H
 
 #include <math.h>
+#include <stdint.h>
 #ifdef __x86_64__
 #include <immintrin.h>
 #include <sleef.h>
@@ -21,6 +22,8 @@
 #endif
 
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+// What a comparison of lanes gives: all bits set where it holds.
+typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 // Inlined always: a call would pass vectors through memory, and keep what is constant from being
 // seen. Sanitizers want their stack in small pieces.
@@ -56,10 +59,14 @@ LANE_INLINE lanes lanes_sqrt(lanes x) {
   return LANES_SQRT(x);
 }
 
+// SLEEF answers for all lanes in another manner, half as fast and with other roundings, where one of
+// them is large or not finite. So that no lane feels another, such a lane is kept from it and gets
+// NaN: no steering turns twice round, and what a lane cannot solve is left to the scalar path.
 LANE_INLINE void lanes_sincos(lanes x, lanes *s, lanes *c) {
-  lanes_pair both = LANES_SINCOS(x);
-  *s = (lanes)both.x;
-  *c = (lanes)both.y;
+  lanes_mask usual = x * x < 15.0 * 15.0; // SLEEF's limit
+  lanes_pair both = LANES_SINCOS((lanes)((lanes_mask)x & usual));
+  *s = (lanes)((lanes_mask)both.x | ~usual);
+  *c = (lanes)((lanes_mask)both.y | ~usual);
 }
 #else
 LANE_INLINE lanes lanes_sqrt(lanes x) {

@@ -6,11 +6,8 @@
 #include "equations/lane_math.h"
 
 #include <stdbool.h>
-#include <stdint.h>
 
 typedef lanes real;
-// What a comparison of lanes gives: all bits set where it holds.
-typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 static inline real real_of(double x) {
   return lanes_of(x);
