@@ -134,9 +134,15 @@ static void solve_block(bike_batch_accelerations *out, const bike_batch *b,
     if (!(solved >> i & 1)) solve_alone(out, b, s, first + i);
 }
 
+static bool complete(const bike_batch_accelerations *out, const bike_batch_states *s) {
+  return s->lean && s->steer && s->lean_rate && s->steer_rate && s->speed && out->lean &&
+         out->steer && out->speed;
+}
+
 int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
                           const bike_batch_states *states, size_t count) {
   if (!out || !batch || !states) return BIKE_ERROR_ARGUMENT;
+  if (count > 0 && !complete(out, states)) return BIKE_ERROR_ARGUMENT;
   if (batch->model_count != 1 && count != batch->model_count) return BIKE_ERROR_ARGUMENT;
   size_t width = (size_t)batch->lanes->width;
   for (size_t first = 0; first < count; first += width) {

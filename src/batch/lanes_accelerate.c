@@ -9,15 +9,14 @@ void INSTANCE(lanes_pack)(lanes_models *block, const bike_model *model, int lane
   const real *from = (const real *)&one;
   for (size_t i = 0; i < sizeof one / sizeof(real); i++) to[i][lane] = from[i][lane];
   block->reach[lane] = model->reach;
-  block->has_rider[lane] = model->rider_mass;
 }
 
 // What the scalar path judges as singular is left to it.
 static inline lanes_mask regular(const instant *now, real reach) {
   const double least = 64 * 2.220446049250313e-16; // as there
   const kane *k = &now->k;
-  return (lanes_abs(now->at.D) > least * reach) & (k->pivot[1] > least * k->M[1]) &
-         (k->pivot[2] > least * k->M[0]);
+  return (lanes_abs(now->at.D) > least * reach) & (k->pivot[0] > 0.0 * reach) &
+         (k->pivot[1] > least * k->M[1]) & (k->pivot[2] > least * k->M[0]);
 }
 
 __attribute__((flatten)) unsigned

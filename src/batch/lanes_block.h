@@ -12,7 +12,6 @@
 struct lanes_models {
   kernel_model model;
   real reach;
-  real has_rider; // kg
 };
 
 // Arrays of users need not be aligned as vectors are.

@@ -31,9 +31,11 @@ typedef struct bike_batch_accelerations {
 BIKE_API int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_count);
 BIKE_API void bike_batch_free(bike_batch *batch);
 
-// Hands off. Differs from bike_accelerate by rounding: below 1e-13 max(1, |acceleration|) unless
-// the state is close to a singular one. Each result depends on its own state and bicycle alone.
-// Errors: ARGUMENT (also for a count that is not that of the bicycles).
+// Hands off. Differs from bike_accelerate by rounding: by some 1e-15 of the terms that add up to an
+// acceleration. They cancel mostly: up to 20 deg and 0.5 rad/s it is below 3e-13 max(1,
+// |acceleration|) for a roadster, and below 1e-12 for a penny-farthing's light steering. Each result
+// depends on its own state and bicycle alone, to the last bit. Results may not lie over the states.
+// Errors: ARGUMENT (also for a missing array, or a count that is not that of the bicycles).
 BIKE_API int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
                                    const bike_batch_states *states, size_t count);
 
