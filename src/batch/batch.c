@@ -39,6 +39,13 @@ static void pack_all(bike_batch *b) {
     }
 }
 
+// Of the widest vectors; aligned_alloc takes nothing but multiples of it.
+enum { ALIGNMENT = 64 };
+
+static size_t rounded_up(size_t size) {
+  return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
 int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_count) {
   if (!out || !models || model_count == 0) return BIKE_ERROR_ARGUMENT;
   bike_batch *b = calloc(1, sizeof *b);
@@ -48,8 +55,8 @@ int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_c
   size_t width = (size_t)b->lanes->width;
   size_t blocks = (model_count - 1) / width + 1;
   b->models = calloc(model_count, sizeof *models);
-  if (blocks <= SIZE_MAX / b->lanes->block_size)
-    b->blocks = aligned_alloc(64, blocks * b->lanes->block_size);
+  if (blocks < SIZE_MAX / b->lanes->block_size)
+    b->blocks = aligned_alloc(ALIGNMENT, rounded_up(blocks * b->lanes->block_size));
   if (!b->models || !b->blocks) {
     bike_batch_free(b);
     return BIKE_ERROR_MEMORY;

@@ -24,6 +24,7 @@ typedef struct book {
   bool alive, lifted;
   int quiet, quiet_before; // looks in a row; before the last accepted step
   long looks, looks_before;
+  double forward; // sign of the speed at the start; 0 at rest: there is no standstill then
   double longest; // s  of a step, once an end is near
   long steps, evaluations;
 } book;
@@ -144,7 +145,10 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
     b->alive = false;
     return;
   }
-  *b = (book){.member = r.member, .alive = true, .longest = INFINITY};
+  *b = (book){.member = r.member,
+              .alive = true,
+              .forward = r.state.speed == 0 ? 0 : copysign(1, r.state.speed),
+              .longest = INFINITY};
   INSTANCE(lanes_pack)(&p->block, r.model, lane);
   const double y[LANES_STATE] = {[LANES_LEAN] = r.state.lean,
                                  [LANES_STEER] = r.state.steer,
@@ -176,17 +180,23 @@ static void finish(pen *p, int lane, lanes_end end, const lanes_ride_def *def) {
   take_next(p, lane, def);
 }
 
+// A duration that is a multiple of the looks but for rounding ends with one.
+static double next_look(const book *b, const lanes_ride_def *def) {
+  double look = def->look > 0 ? (double)(b->looks + 1) * def->look : INFINITY;
+  return fabs(look - def->duration) <= 1e-14 * look ? def->duration : look;
+}
+
 // Where a lane's next step must end at the latest.
 static double stop_of(const book *b, const lanes_ride_def *def) {
-  double look = def->look > 0 ? (double)(b->looks + 1) * def->look : INFINITY;
-  return fmin(def->duration, look);
+  return fmin(def->duration, next_look(b, def));
 }
 
 // Whether the last accepted step has led beyond an end; which.
 static bool has_ended(lanes_end *end, const pen *p, int lane, const lanes_ride_def *def) {
   bool fallen = !(fabs(p->y[LANES_LEAN][lane]) < def->lean_limit);
   *end = fallen ? LANES_LEAN_LIMIT : LANES_STANDSTILL;
-  return fallen || p->before[LANES_SPEED][lane] * p->y[LANES_SPEED][lane] < 0;
+  double forward = p->books[lane].forward;
+  return fallen || (forward != 0 && forward * p->y[LANES_SPEED][lane] <= 0);
 }
 
 // Goes back before the last accepted step, which led beyond an end; false: it was so short that the
@@ -204,16 +214,16 @@ static bool retreat(pen *p, int lane) {
   return true;
 }
 
-// A step has landed at its stop: is the ride over, or straight?
+// A step has landed at its stop: is the ride straight, or over?
 static bool is_over(lanes_end *end, pen *p, int lane, const lanes_ride_def *def) {
   book *b = &p->books[lane];
-  *end = LANES_COMPLETE;
-  if (p->t[lane] >= def->duration) return true;
-  bike_state now = state_of(p->y, lane);
-  b->looks++;
-  b->quiet = is_quiet(&now, def->settled) ? b->quiet + 1 : 0;
-  *end = LANES_SETTLED;
-  return b->quiet >= def->looks_settled;
+  if (p->t[lane] >= next_look(b, def)) {
+    bike_state now = state_of(p->y, lane);
+    b->looks++;
+    b->quiet = is_quiet(&now, def->settled) ? b->quiet + 1 : 0;
+  }
+  *end = b->quiet >= def->looks_settled ? LANES_SETTLED : LANES_COMPLETE;
+  return *end == LANES_SETTLED || p->t[lane] >= def->duration;
 }
 
 static void accept(pen *p, int lane, const trial *tr, double h, double stop, bool landed) {

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rides in lanes against rides one after the other: what becomes of them, when, and where.
+#include "batch/lanes_support.h"
+#include "batch/plain_ride.h"
+#include "support/near.h"
+#include <bicycle/error.h>
+#include <string.h>
+
+static const double DEGREE = M_PI / 180;
+
+enum { MOST = 1024 };
+
+typedef struct crowd {
+  int count;
+  bike_model models[SHIPPED_COUNT];
+  bike_member members[MOST];
+} crowd;
+
+static crowd all;
+
+static void add(const bike_model *model, bike_state start, bike_input input) {
+  assert_true(all.count < MOST);
+  all.members[all.count++] = (bike_member){model, start, input};
+}
+
+static void begin(void) {
+  all.count = 0;
+  for (int k = 0; k < SHIPPED_COUNT; k++) all.models[k] = shipped_model(k);
+}
+
+static bike_ensemble_def definition(double duration) {
+  bike_ensemble_def def = bike_default_ensemble_def();
+  def.duration = duration;
+  def.rtol = def.atol = 1e-12; // so that little more than the steps' errors tells the paths apart
+  def.settled = 0.02;
+  return def;
+}
+
+// The members in lanes and one by one; how many ended in which manner. Next to none may lie where a
+// nudge changes the manner.
+static void compare(const bike_ensemble_def *def, int seen[BIKE_OUTCOMES]) {
+  static bike_member_result results[MOST];
+  int blurred = 0;
+  long steps = 0, steps_plain = 0;
+  ride_members(results, all.members, (size_t)all.count, def);
+  for (int i = 0; i < all.count; i++) {
+    plain_ride plain = ride_plain(&all.members[i], def);
+    seen[plain.result.outcome]++;
+    steps += results[i].steps;
+    steps_plain += plain.result.steps;
+    if (plain.sharp)
+      assert_like_plain(&results[i], &plain);
+    else
+      blurred++;
+  }
+  print_message("%d rides, %d blurred, %ld steps (plain %ld):", all.count, blurred, steps,
+                steps_plain);
+  for (int k = 0; k < BIKE_OUTCOMES; k++) print_message(" %d %s", seen[k], bike_outcome_string(k));
+  print_message("\n");
+  assert_true(blurred * 50 <= all.count);
+  // the same method to the same tolerance; looking for ends costs a few dozen short steps
+  assert_true(steps <= 3 * steps_plain);
+}
+
+static const double leans[] = {-30 * DEGREE, -4 * DEGREE, 0.5 * DEGREE, 13 * DEGREE, 44 * DEGREE};
+static const double steers[] = {-40 * DEGREE, -2 * DEGREE, 0, 21 * DEGREE};
+
+static void add_grid(int which, double speed, bike_input input) {
+  for (int i = 0; i < 5; i++)
+    for (int j = 0; j < 4; j++)
+      add(&all.models[which], (bike_state){.lean = leans[i], .steer = steers[j], .speed = speed},
+          input);
+}
+
+// From backwards to fast: the roadster rides straight by itself at 5.8 m/s, the benchmark at 5.
+static void hands_off(void **unused) {
+  (void)unused;
+  const double speeds[] = {-3, 0.05, 0.6, 2, 5, 5.8, 9};
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int which = 0; which < SHIPPED_COUNT; which++)
+    for (int k = 0; k < 7; k++) add_grid(which, speeds[k], (bike_input){0});
+  bike_ensemble_def def = definition(4);
+  compare(&def, seen);
+  for (int k = 0; k < BIKE_OUTCOME_ERROR; k++) assert_true(seen[k] > 3);
+}
+
+// A start at rest has no standstill: the wheels roll to and fro while it falls.
+static void starts_at_rest(void **unused) {
+  (void)unused;
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int which = 0; which < SHIPPED_COUNT; which++) add_grid(which, 0, (bike_input){0});
+  bike_ensemble_def def = definition(4);
+  compare(&def, seen);
+  assert_int_equal(seen[BIKE_OUTCOME_STANDSTILL], 0);
+  assert_true(seen[BIKE_OUTCOME_LEAN_LIMIT] > 10);
+}
+
+// Long enough that some come to rest on the straight, where looks, their number in a row, and time
+// must be counted alike.
+static void rides_that_settle(void **unused) {
+  (void)unused;
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int i = 0; i < 30; i++) {
+    bike_state start = {.lean = i * 0.4 * DEGREE, .steer_rate = 0.01 * i, .speed = 5.75};
+    add(&all.models[0], start, (bike_input){0});
+    start.speed = 5;
+    add(&all.models[2], start, (bike_input){0});
+  }
+  bike_ensemble_def def = definition(15);
+  compare(&def, seen);
+  assert_true(seen[BIKE_OUTCOME_SETTLED] > 20);
+}
+
+// The 20th look, at 0.95 s, is the end of the ride too.
+static void settled_at_the_very_end(void **unused) {
+  (void)unused;
+  const double durations[] = {0.9, 0.95, 0.96, 1};
+  for (int k = 0; k < 4; k++) {
+    begin();
+    add(&all.models[0], (bike_state){.lean = 1e-3, .speed = 5.8}, (bike_input){0});
+    bike_ensemble_def def = definition(durations[k]);
+    int seen[BIKE_OUTCOMES] = {0};
+    compare(&def, seen);
+    assert_int_equal(seen[k == 0 ? BIKE_OUTCOME_COMPLETE : BIKE_OUTCOME_SETTLED], 1);
+  }
+}
+
+static void constant_inputs(void **unused) {
+  (void)unused;
+  const bike_input inputs[] = {{.steer_torque = 0.3}, {.steer_torque = -2},
+                               {.roll_torque = 4},    {.roll_torque = -25},
+                               {.rider_offset = 0.02}, {.rider_offset = -0.08},
+                               {.steer_torque = 0.5, .roll_torque = -3, .rider_offset = 0.03}};
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int k = 0; k < 7; k++)
+    for (int which = 0; which < SHIPPED_COUNT; which++)
+      for (int i = 0; i < 4; i++) {
+        if (inputs[k].rider_offset != 0 && all.models[which].rider_mass == 0) continue;
+        bike_state start = {.lean = 0.02 * i, .steer = -0.01 * i, .speed = 2.0 * i + 0.5};
+        add(&all.models[which], start, inputs[k]);
+      }
+  bike_ensemble_def def = definition(4);
+  compare(&def, seen);
+}
+
+// A narrow lean limit, an odd duration, no looks: every stop by itself.
+static void other_definitions(void **unused) {
+  (void)unused;
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int which = 0; which < SHIPPED_COUNT; which++) add_grid(which, 4, (bike_input){0});
+  bike_ensemble_def def = definition(1.2345);
+  def.lean_limit = 31 * DEGREE;
+  compare(&def, seen);
+  def.settled = 0;
+  def.watch_lift = false;
+  compare(&def, seen);
+  def.duration = 0.01; // one step
+  compare(&def, seen);
+  assert_true(seen[BIKE_OUTCOME_LEAN_LIMIT] > 20 && seen[BIKE_OUTCOME_COMPLETE] > 20);
+}
+
+// Speeds whose squares are still numbers, and those whose are not.
+static void extreme_starts(void **unused) {
+  (void)unused;
+  const double speeds[] = {1e-300, 1e-12, 300, 1e5};
+  int seen[BIKE_OUTCOMES] = {0};
+  begin();
+  for (int k = 0; k < 4; k++) add_grid(0, speeds[k], (bike_input){0});
+  bike_ensemble_def def = definition(0.1);
+  compare(&def, seen);
+}
+
+typedef struct lowest {
+  double force; // N  on either wheel
+  double since; // s  the last time both were on the ground
+  double aloft; // s  the longest time that one was not
+} lowest;
+
+static int note_force(const bike_sample *s, const bike_sample_more *more, void *user) {
+  (void)more;
+  lowest *low = user;
+  double force = fmin(s->rear_normal, s->front_normal);
+  low->force = fmin(low->force, force);
+  if (force >= 0) low->since = s->time;
+  low->aloft = fmax(low->aloft, s->time - low->since);
+  return 0;
+}
+
+static lowest trace_lifts(const bike_member *member, double duration) {
+  lowest low = {.force = INFINITY};
+  bike_ride_def def = bike_default_ride_def();
+  bike_ride_result result;
+  def.start = member->start;
+  def.duration = duration;
+  def.sample = 1e-3;
+  def.on_sample = note_force;
+  def.user = &low;
+  assert_int_equal(bike_ride(&result, member->model, &def), BIKE_OK);
+  return low;
+}
+
+// Both at the same steps' ends: a wheel that is off the ground for longer than a step is seen, one
+// that never is is not.
+static void lifts(void **unused) {
+  (void)unused;
+  static bike_member_result results[MOST];
+  const double longest_step = 0.1; // s; below half of it at these tolerances
+  int lifted = 0, grounded = 0;
+  begin();
+  for (int which = 0; which < SHIPPED_COUNT; which++)
+    for (int k = 0; k < 3; k++) add_grid(which, 3.0 * k + 1, (bike_input){0});
+  bike_ensemble_def def = definition(3);
+  def.settled = 0;
+  ride_members(results, all.members, (size_t)all.count, &def);
+  for (int i = 0; i < all.count; i++) {
+    lowest low = trace_lifts(&all.members[i], def.duration);
+    if (low.force > 0) assert_false(results[i].lifted);
+    if (low.aloft > longest_step) assert_true(results[i].lifted);
+    grounded += low.force > 0;
+    lifted += low.aloft > longest_step;
+  }
+  print_message("%d rides, %d lift, %d never do\n", all.count, lifted, grounded);
+  assert_true(lifted > 10 && grounded > 100);
+  def.watch_lift = false;
+  ride_members(results, all.members, (size_t)all.count, &def);
+  for (int i = 0; i < all.count; i++) assert_false(results[i].lifted);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(hands_off),         cmocka_unit_test(starts_at_rest),
+      cmocka_unit_test(rides_that_settle), cmocka_unit_test(settled_at_the_very_end),
+      cmocka_unit_test(constant_inputs),   cmocka_unit_test(other_definitions),
+      cmocka_unit_test(extreme_starts),    cmocka_unit_test(lifts),
+  };
+  return cmocka_run_group_tests(tests, print_instructions, NULL);
+}
