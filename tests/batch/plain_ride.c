@@ -28,6 +28,17 @@ static double pace(const bike_member *member, const bike_state *at) {
   return fmax(rates, fmax(fabs(a.lean), fmax(fabs(a.steer), fabs(a.speed))));
 }
 
+// Whether a denominator is at its edge. A ride may also end before, where the straight line from
+// upright to the state, along which the scalar path looks for the rear angle, leaves the range of
+// the geometry (a penny-farthing steered by 150 deg): lanes follow the root of the step before.
+static bool is_at_edge(const bike_member *member, const bike_state *end) {
+  bike_snapshot now;
+  if (bike_evaluate(&now, member->model, end, &member->input)) return true;
+  double scale = fabs(now.T_r) + fabs(now.T_f), c = cos(now.phi_tilde);
+  double yaw = fabs(now.T_r * c - now.T_f), pitch = fabs(now.T_r - now.T_f * c);
+  return fmin(yaw, pitch) < 1.01e-3 * scale;
+}
+
 plain_ride ride_plain(const bike_member *member, const bike_ensemble_def *def) {
   plain_ride plain = {0};
   bike_member nudged = *member;
@@ -43,14 +54,16 @@ plain_ride ride_plain(const bike_member *member, const bike_ensemble_def *def) {
   ride_members(&plain.result, member, 1, &alone);
   ride_members(&other, &nudged, 1, &alone);
   const bike_member_result *r = &plain.result;
-  plain.sharp = r->outcome == other.outcome;
+  plain.sharp = r->outcome == other.outcome &&
+                (r->outcome != BIKE_OUTCOME_VALIDITY || is_at_edge(member, &r->end));
   double growth = fmax(1, distance(&r->end, &other.end) / NUDGE);
   double growth_in_time = fabs(r->time - other.time) / NUDGE;
   double size = fmax(size_of(&member->start), size_of(&r->end));
   double made = (double)r->steps * (def->rtol * size + def->atol); // on either path
   double resolution =
       r->outcome == BIKE_OUTCOME_COMPLETE || r->outcome == BIKE_OUTCOME_SETTLED ? 0 : RESOLUTION;
-  plain.time_tolerance = 2 * (resolution + made * growth_in_time);
+  // the 1e-14: looks are at multiples of their distance but for rounding
+  plain.time_tolerance = 2 * (resolution + made * growth_in_time) + 1e-14 * r->time;
   plain.tolerance = 2 * made * growth;
   if (resolution > 0) plain.tolerance += plain.time_tolerance * pace(member, &r->end);
   return plain;

@@ -7,7 +7,8 @@
 
 typedef struct plain_ride {
   bike_member_result result;
-  bool sharp;            // a start a little off ends in the same manner
+  bool sharp;            // a start a little off ends in the same manner, and for a reason that
+                         // lanes share
   double time_tolerance; // s
   double tolerance;      // of angles, rates, speed at the end
 } plain_ride;

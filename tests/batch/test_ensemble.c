@@ -201,6 +201,7 @@ static lowest trace_lifts(const bike_member *member, double duration) {
   def.on_sample = note_force;
   def.user = &low;
   assert_int_equal(bike_ride(&result, member->model, &def), BIKE_OK);
+  low.force = fmin(low.force, fmin(result.end.rear_normal, result.end.front_normal));
   return low;
 }
 
