@@ -4,6 +4,7 @@
 #include <bicycle/error.h>
 #include <float.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "batch/lanes.h"
@@ -34,6 +35,7 @@ typedef struct work {
   const bike_member *members;
   size_t count;
   const bike_ensemble_def *def;
+  pthread_t caller;
   atomic_size_t next, done;
 } work;
 
@@ -45,7 +47,9 @@ typedef struct worker {
 static void count_done(worker *w) {
   size_t done = atomic_fetch_add(&w->work->done, 1) + 1;
   const bike_ensemble_def *def = w->work->def;
-  if (w->tells && def->progress) def->progress((double)done / (double)w->work->count, def->user);
+  bool last = done == w->work->count; // which any thread may do; told when all have ended
+  if (w->tells && def->progress && !last)
+    def->progress((double)done / (double)w->work->count, def->user);
 }
 
 // Where the bicycle stands at its start; an error, or an end, at once.
@@ -103,7 +107,9 @@ static void member_done(const lanes_ended *end, void *user) {
 }
 
 static void ride_share(size_t share, void *user) {
-  worker w = {.work = user, .tells = share == 0};
+  (void)share; // any thread may take any
+  work *all = user;
+  worker w = {.work = all, .tells = pthread_equal(pthread_self(), all->caller)};
   const bike_ensemble_def *def = w.work->def;
   lanes_ride_def ride = {.duration = def->duration,
                          .rtol = def->rtol,
@@ -140,8 +146,9 @@ int bike_ensemble_ride(bike_member_result *out, const bike_member *members, size
   if (!out || !members || !def) return BIKE_ERROR_ARGUMENT;
   int code = check(members, count, def);
   if (code) return code;
-  work all = {.out = out, .members = members, .count = count, .def = def};
+  work all = {.out = out, .members = members, .count = count, .def = def, .caller = pthread_self()};
   // one share a thread, each of which takes members until none is left
   parallel_run((size_t)def->threads, def->threads, ride_share, &all, NULL, NULL);
+  if (def->progress) def->progress(1, def->user);
   return BIKE_OK;
 }

@@ -25,7 +25,8 @@ typedef struct book {
   int quiet, quiet_before; // looks in a row; before the last accepted step
   long looks, looks_before;
   double forward; // sign of the speed at the start; 0 at rest: there is no standstill then
-  double longest; // s  of a step, once an end is near
+  double longest; // s  of a step, while an end is near
+  double beyond;  // s  where one has been seen
   long steps, evaluations;
 } book;
 
@@ -205,6 +206,7 @@ static bool retreat(pen *p, int lane) {
   book *b = &p->books[lane];
   double h = p->t[lane] - p->before_t[lane];
   if (!(h > RESOLUTION)) return false;
+  b->beyond = p->t[lane];
   p->t[lane] = p->before_t[lane];
   for (int i = 0; i < LANES_STATE; i++) p->y[i][lane] = p->before[i][lane];
   b->looks = b->looks_before;
@@ -237,11 +239,12 @@ static void accept(pen *p, int lane, const trial *tr, double h, double stop, boo
   b->looks_before = b->looks;
   b->quiet_before = b->quiet;
   b->steps++;
+  if (p->t[lane] > b->beyond) b->longest = INFINITY; // shorter steps have led past that end
 }
 
 // The step after one of length h: error ~ h^8.
 static double next_step(double h, double error) {
-  double factor = error > 0 ? SAFETY * pow(error, -1.0 / 8) : GROW;
+  double factor = error == 0 ? GROW : SAFETY * pow(error, -1.0 / 8); // fmax: NaN shrinks
   return h * fmin(GROW, fmax(SHRINK, factor));
 }
 

@@ -21,7 +21,7 @@ static void *run(void *user) {
 static void run_and_tell(work *w, void (*progress)(double done, void *user), void *user) {
   for (size_t i = atomic_fetch_add(&w->next, 1); i < w->count; i = atomic_fetch_add(&w->next, 1)) {
     w->body(i, w->user);
-    if (progress) progress((double)(i + 1) / (double)w->count, user);
+    if (progress && i + 1 < w->count) progress((double)(i + 1) / (double)w->count, user);
   }
 }
 
@@ -36,4 +36,5 @@ void parallel_run(size_t count, int threads, void (*body)(size_t i, void *user),
     started++;
   run_and_tell(&w, progress, progress_user);
   for (int i = 0; i < started; i++) pthread_join(helpers[i], NULL);
+  if (progress) progress(1, progress_user); // when the helpers are done too
 }

@@ -8,7 +8,7 @@
 enum { PARALLEL_MOST_THREADS = 256 };
 
 // Calls body(i, user) for i = 0 .. count - 1, each once, in no order. `progress` may be NULL; it is
-// called by the calling thread alone, with the share that has been begun.
+// called by the calling thread alone, with the share that has been begun; with 1 when all is done.
 void parallel_run(size_t count, int threads, void (*body)(size_t i, void *user), void *user,
                   void (*progress)(double done, void *user), void *progress_user);
 

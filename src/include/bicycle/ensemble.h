@@ -49,7 +49,8 @@ typedef struct bike_ensemble_def {
   bool plain;        //      one after the other by bike_ride, for checks: the same within the
                      //      tolerances
   int threads;       //      >= 1
-  void (*progress)(double done, void *user); // may be NULL; called by the calling thread alone
+  void (*progress)(double done, void *user); // may be NULL; called by the calling thread alone,
+                                             //      with rising numbers, 1 at the end
   void *user;
 } bike_ensemble_def;
 
