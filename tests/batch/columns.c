@@ -8,8 +8,8 @@ void columns_solve(columns *c, const bike_model *models, size_t model_count,
                    const bike_state *states, size_t count, size_t offset) {
   assert_true(count + offset <= COLUMNS_MOST + 1);
   for (size_t i = 0; i < count; i++) {
-    const double s[5] = {states[i].lean, states[i].steer, states[i].lean_rate,
-                         states[i].steer_rate, states[i].speed};
+    const double s[5] = {states[i].lean, states[i].steer, states[i].lean_rate, states[i].steer_rate,
+                         states[i].speed};
     for (int k = 0; k < 5; k++) c->state[k][i + offset] = s[k];
   }
   for (size_t i = 0; i < count; i++) c->codes[i] = -1;
@@ -25,6 +25,7 @@ void columns_solve(columns *c, const bike_model *models, size_t model_count,
 }
 
 bike_acceleration columns_result(const columns *c, size_t i, size_t offset) {
-  return (bike_acceleration){
-      .lean = c->out[0][i + offset], .steer = c->out[1][i + offset], .speed = c->out[2][i + offset]};
+  return (bike_acceleration){.lean = c->out[0][i + offset],
+                             .steer = c->out[1][i + offset],
+                             .speed = c->out[2][i + offset]};
 }

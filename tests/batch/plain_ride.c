@@ -50,7 +50,8 @@ plain_ride ride_plain(const bike_member *member, const bike_ensemble_def *def) {
   nudged.start.steer -= NUDGE;
   nudged.start.lean_rate += NUDGE;
   nudged.start.steer_rate += NUDGE;
-  if (nudged.start.speed != 0) nudged.start.speed += NUDGE; // a start at rest is one of its own kind
+  if (nudged.start.speed != 0)
+    nudged.start.speed += NUDGE; // a start at rest is one of its own kind
   ride_members(&plain.result, member, 1, &alone);
   ride_members(&other, &nudged, 1, &alone);
   const bike_member_result *r = &plain.result;

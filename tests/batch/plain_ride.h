@@ -14,8 +14,8 @@ typedef struct plain_ride {
 } plain_ride;
 
 // Rides the member by the plain path, from its start and from one nudged by 1e-7 in every variable:
-// what the nudge has grown to at the end tells what the errors of all steps, at most rtol |y| + atol
-// each, may have grown to.
+// what the nudge has grown to at the end tells what the errors of all steps, at most rtol |y| +
+// atol each, may have grown to.
 plain_ride ride_plain(const bike_member *member, const bike_ensemble_def *def);
 
 // Outcome, time and end state; fails the running test where they differ by more.

@@ -13,8 +13,8 @@ static const double DEGREE = M_PI / 180;
 static double worst; // error in units of DBL_EPSILON times the scale
 
 static void check_one(double got, double want, double scale) {
-  // some hundred operations lead to each term, rounded differently by fused multiply-adds and another
-  // sine: 10 units of rounding at worst here, of angles up to 88 deg
+  // some hundred operations lead to each term, rounded differently by fused multiply-adds and
+  // another sine: 10 units of rounding at worst here, of angles up to 88 deg
   worst = fmax(worst, fabs(got - want) / (DBL_EPSILON * scale));
   assert_near(got, want, 32 * DBL_EPSILON * scale);
 }

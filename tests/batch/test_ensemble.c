@@ -75,12 +75,12 @@ static void add_grid(int which, double speed, bike_input input) {
 // From backwards to fast: the roadster rides straight by itself at 5.8 m/s, the benchmark at 5.
 static void hands_off(void **unused) {
   (void)unused;
-  const double speeds[] = {-3, 0.05, 0.6, 2, 5, 5.8, 9};
+  const double speeds[] = {-3, 0.05, 2, 5, 5.8, 9};
   int seen[BIKE_OUTCOMES] = {0};
   begin();
   for (int which = 0; which < SHIPPED_COUNT; which++)
-    for (int k = 0; k < 7; k++) add_grid(which, speeds[k], (bike_input){0});
-  bike_ensemble_def def = definition(4);
+    for (int k = 0; k < 6; k++) add_grid(which, speeds[k], (bike_input){0});
+  bike_ensemble_def def = definition(2.5);
   compare(&def, seen);
   for (int k = 0; k < BIKE_OUTCOME_ERROR; k++) assert_true(seen[k] > 3);
 }
@@ -130,9 +130,12 @@ static void settled_at_the_very_end(void **unused) {
 
 static void constant_inputs(void **unused) {
   (void)unused;
-  const bike_input inputs[] = {{.steer_torque = 0.3}, {.steer_torque = -2},
-                               {.roll_torque = 4},    {.roll_torque = -25},
-                               {.rider_offset = 0.02}, {.rider_offset = -0.08},
+  const bike_input inputs[] = {{.steer_torque = 0.3},
+                               {.steer_torque = -2},
+                               {.roll_torque = 4},
+                               {.roll_torque = -25},
+                               {.rider_offset = 0.02},
+                               {.rider_offset = -0.08},
                                {.steer_torque = 0.5, .roll_torque = -3, .rider_offset = 0.03}};
   int seen[BIKE_OUTCOMES] = {0};
   begin();
@@ -214,7 +217,7 @@ static void lifts(void **unused) {
   int lifted = 0, grounded = 0;
   begin();
   for (int which = 0; which < SHIPPED_COUNT; which++)
-    for (int k = 0; k < 3; k++) add_grid(which, 3.0 * k + 1, (bike_input){0});
+    for (int k = 0; k < 2; k++) add_grid(which, 5.0 * k + 1, (bike_input){0});
   bike_ensemble_def def = definition(3);
   def.settled = 0;
   ride_members(results, all.members, (size_t)all.count, &def);
@@ -226,7 +229,7 @@ static void lifts(void **unused) {
     lifted += low.aloft > longest_step;
   }
   print_message("%d rides, %d lift, %d never do\n", all.count, lifted, grounded);
-  assert_true(lifted > 10 && grounded > 100);
+  assert_true(lifted > 10 && grounded > 50);
   def.watch_lift = false;
   ride_members(results, all.members, (size_t)all.count, &def);
   for (int i = 0; i < all.count; i++) assert_false(results[i].lifted);
