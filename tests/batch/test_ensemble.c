@@ -62,12 +62,12 @@ static void compare(const bike_ensemble_def *def, int seen[BIKE_OUTCOMES]) {
   assert_true(steps <= 3 * steps_plain);
 }
 
-static const double leans[] = {-30 * DEGREE, -4 * DEGREE, 0.5 * DEGREE, 13 * DEGREE, 44 * DEGREE};
-static const double steers[] = {-40 * DEGREE, -2 * DEGREE, 0, 21 * DEGREE};
+static const double leans[] = {-30 * DEGREE, 0.5 * DEGREE, 13 * DEGREE, 44 * DEGREE};
+static const double steers[] = {-40 * DEGREE, -2 * DEGREE, 21 * DEGREE};
 
 static void add_grid(int which, double speed, bike_input input) {
-  for (int i = 0; i < 5; i++)
-    for (int j = 0; j < 4; j++)
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 3; j++)
       add(&all.models[which], (bike_state){.lean = leans[i], .steer = steers[j], .speed = speed},
           input);
 }
@@ -217,8 +217,8 @@ static void lifts(void **unused) {
   int lifted = 0, grounded = 0;
   begin();
   for (int which = 0; which < SHIPPED_COUNT; which++)
-    for (int k = 0; k < 2; k++) add_grid(which, 5.0 * k + 1, (bike_input){0});
-  bike_ensemble_def def = definition(3);
+    for (int k = 0; k < 3; k++) add_grid(which, 3.0 * k + 1, (bike_input){0});
+  bike_ensemble_def def = definition(1.5);
   def.settled = 0;
   ride_members(results, all.members, (size_t)all.count, &def);
   for (int i = 0; i < all.count; i++) {
