@@ -235,12 +235,46 @@ static void lifts(void **unused) {
   for (int i = 0; i < all.count; i++) assert_false(results[i].lifted);
 }
 
+// Either wheel by itself, at the start of a ride of one step.
+static void each_wheel_is_watched(void **unused) {
+  (void)unused;
+  static bike_member_result results[MOST];
+  random_source source = random_begin("wheels", 90023);
+  begin();
+  for (int i = 0; i < MOST; i++) {
+    random_range range = shipped_bicycles[i % SHIPPED_COUNT].range;
+    range.rate = 8;
+    add(&all.models[i % SHIPPED_COUNT], random_state(&source, &range), (bike_input){0});
+  }
+  bike_ensemble_def def = definition(1e-5);
+  ride_members(results, all.members, MOST, &def);
+  int rear_alone = 0, front_alone = 0, neither = 0;
+  for (int i = 0; i < MOST; i++) {
+    bike_snapshot now;
+    const bike_member *m = &all.members[i];
+    assert_int_equal(bike_evaluate(&now, m->model, &m->start, NULL), BIKE_OK);
+    bool rear = now.rear_force[2] < 0, front = now.front_force[2] < 0;
+    assert_int_equal(results[i].lifted, rear || front);
+    rear_alone += rear && !front;
+    front_alone += front && !rear;
+    neither += !rear && !front;
+  }
+  print_message("%d lift the rear wheel alone, %d the front wheel alone, %d none\n", rear_alone,
+                front_alone, neither);
+  assert_true(rear_alone > 20 && front_alone > 20 && neither > 20);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(hands_off),         cmocka_unit_test(starts_at_rest),
-      cmocka_unit_test(rides_that_settle), cmocka_unit_test(settled_at_the_very_end),
-      cmocka_unit_test(constant_inputs),   cmocka_unit_test(other_definitions),
-      cmocka_unit_test(extreme_starts),    cmocka_unit_test(lifts),
+      cmocka_unit_test(hands_off),
+      cmocka_unit_test(starts_at_rest),
+      cmocka_unit_test(rides_that_settle),
+      cmocka_unit_test(settled_at_the_very_end),
+      cmocka_unit_test(constant_inputs),
+      cmocka_unit_test(other_definitions),
+      cmocka_unit_test(extreme_starts),
+      cmocka_unit_test(lifts),
+      cmocka_unit_test(each_wheel_is_watched),
   };
   return cmocka_run_group_tests(tests, print_instructions, NULL);
 }

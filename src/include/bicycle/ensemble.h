@@ -21,7 +21,8 @@ typedef enum bike_outcome {
   BIKE_OUTCOME_COMPLETE,   // still rides when the time is over
   BIKE_OUTCOME_SETTLED,    // rides straight
   BIKE_OUTCOME_LEAN_LIMIT, // has fallen
-  BIKE_OUTCOME_VALIDITY,   // the model ends, as of bike_ride
+  BIKE_OUTCOME_VALIDITY,   // the model ends, as of bike_ride, but beyond some 150 deg of steer, where
+                           // lanes may find the rear angle a little longer
   BIKE_OUTCOME_STANDSTILL, // the speed crosses zero
   BIKE_OUTCOME_ERROR,      // see `error`
   BIKE_OUTCOMES
