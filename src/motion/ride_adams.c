@@ -25,13 +25,13 @@ static void adams_free(void *self) {
   free(a);
 }
 
-static int set_up(adams *a, const bike_ride_def *def, const ride_point *start, ride_flow *flow) {
+static int set_up(adams *a, const ride_point *start) {
   void *m = a->memory = CVodeCreate(CV_ADAMS, a->sun.context);
   a->solver = SUNNonlinSol_FixedPoint(a->sun.y, 0, a->sun.context);
   if (!m || !a->solver) return BIKE_ERROR_MEMORY;
   bool failed = CVodeSetErrHandlerFn(m, ride_sundials_quiet, NULL) ||
                 CVodeInit(m, ride_sundials_rates, start->t, a->sun.y) ||
-                CVodeSetUserData(m, flow) || CVodeSStolerances(m, def->rtol, def->atol) ||
+                CVodeSetUserData(m, &a->sun) || CVodeWFtolerances(m, ride_sundials_weights) ||
                 CVodeSetNonlinearSolver(m, a->solver) || CVodeSetMaxNumSteps(m, -1);
   return failed ? BIKE_ERROR_MEMORY : BIKE_OK;
 }
@@ -40,8 +40,8 @@ static int adams_create(void **out, const bike_ride_def *def, const ride_point *
                         ride_flow *flow) {
   adams *a = calloc(1, sizeof *a);
   if (!a) return BIKE_ERROR_MEMORY;
-  int code = ride_sundials_open(&a->sun, start);
-  if (!code) code = set_up(a, def, start, flow);
+  int code = ride_sundials_open(&a->sun, def, start, flow);
+  if (!code) code = set_up(a, start);
   if (code)
     adams_free(a);
   else

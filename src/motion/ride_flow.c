@@ -45,13 +45,15 @@ int ride_rates(double dy[RIDE_SIZE], double t, const double y[RIDE_SIZE], ride_f
   bike_rates rates;
   failed = judge(bike_rates_of(&rates, flow->model, &state, &in), flow);
   if (failed) return failed;
+  double speed = y[RIDE_SPEED],
+         yaw = y[RIDE_YAW]; // once: dy might be y, for all the compiler knows
   dy[RIDE_STEER] = y[RIDE_STEER_RATE];
   dy[RIDE_LEAN] = y[RIDE_LEAN_RATE];
   dy[RIDE_STEER_RATE] = rates.acceleration.steer;
   dy[RIDE_LEAN_RATE] = rates.acceleration.lean;
   dy[RIDE_SPEED] = rates.acceleration.speed;
-  dy[RIDE_X] = y[RIDE_SPEED] * cos(y[RIDE_YAW]);
-  dy[RIDE_Y] = y[RIDE_SPEED] * sin(y[RIDE_YAW]);
+  dy[RIDE_X] = speed * cos(yaw);
+  dy[RIDE_Y] = speed * sin(yaw);
   dy[RIDE_YAW] = rates.yaw;
   dy[RIDE_REAR_ANGLE] = rates.rear_angle;
   dy[RIDE_FRONT_ANGLE] = rates.front_angle;

@@ -35,17 +35,17 @@ static ARKodeButcherTable butcher_table(const ride_table *t) {
   return ARKodeButcherTable_Create(t->stages, t->order, t->embedded_order, c, A, b, d);
 }
 
-static int set_up(rk8 *r, const bike_ride_def *def, ride_flow *flow) {
+static int set_up(rk8 *r) {
   ARKodeButcherTable table = butcher_table(&RIDE_TABLE_8);
   if (!table) return BIKE_ERROR_MEMORY;
   void *m = r->memory;
   // The interpolant is asked only at a step's end, up to rounding: with degree 1 it costs no
   // evaluation, with the default degree three at each stop.
   bool failed = ARKStepSetErrHandlerFn(m, ride_sundials_quiet, NULL) ||
-                ARKStepSetUserData(m, flow) ||
+                ARKStepSetUserData(m, &r->sun) ||
                 ARKStepSetTables(m, RIDE_TABLE_8.order, RIDE_TABLE_8.embedded_order, NULL, table) ||
-                ARKStepSetInterpolantDegree(m, 1) || ARKStepSStolerances(m, def->rtol, def->atol) ||
-                ARKStepSetMaxNumSteps(m, -1);
+                ARKStepSetInterpolantDegree(m, 1) ||
+                ARKStepWFtolerances(m, ride_sundials_weights) || ARKStepSetMaxNumSteps(m, -1);
   ARKodeButcherTable_Free(table);
   return failed ? BIKE_ERROR_MEMORY : BIKE_OK;
 }
@@ -54,10 +54,10 @@ static int rk8_create(void **out, const bike_ride_def *def, const ride_point *st
                       ride_flow *flow) {
   rk8 *r = calloc(1, sizeof *r);
   if (!r) return BIKE_ERROR_MEMORY;
-  int code = ride_sundials_open(&r->sun, start);
+  int code = ride_sundials_open(&r->sun, def, start, flow);
   if (!code) {
     r->memory = ARKStepCreate(ride_sundials_rates, NULL, start->t, r->sun.y, r->sun.context);
-    code = r->memory ? set_up(r, def, flow) : BIKE_ERROR_MEMORY;
+    code = r->memory ? set_up(r) : BIKE_ERROR_MEMORY;
   }
   if (code)
     rk8_free(r);
