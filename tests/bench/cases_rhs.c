@@ -29,6 +29,10 @@ static void full(void *context, long repeats) {
   sympy_accelerations(context, sympy_accelerate, repeats);
 }
 
+static void paired(void *context, long repeats) {
+  sympy_accelerations(context, sympy_accelerate_paired, repeats);
+}
+
 static void reduced(void *context, long repeats) {
   sympy_accelerations(context, sympy_accelerate_reduced, repeats);
 }
@@ -40,6 +44,10 @@ static bool prepare_sympy(rhs_cases *c, sympy_accelerator *accelerate, bench_not
 
 static bool prepare_full(void *context, bench_notes *notes) {
   return prepare_sympy(context, sympy_accelerate, notes);
+}
+
+static bool prepare_paired(void *context, bench_notes *notes) {
+  return prepare_sympy(context, sympy_accelerate_paired, notes);
 }
 
 static bool prepare_reduced(void *context, bench_notes *notes) {
@@ -81,8 +89,6 @@ bool bench_rhs_cases(bench_list *list) {
   c->symmetric = sympy_bicycle_init(&c->sympy, &s->bicycle, &s->model);
   const bench_runner accelerations = {"equations, native", bench_native_accelerations,
                                       .context = s};
-  const bench_runner native = {"bike_rates_of, native", bench_native_right_hand_sides,
-                               .context = s};
   const bench_runner ours = {"bike_rates_of", bench_right_hand_sides, .context = s};
   const bench_runner forward = {"mj_forward", bench_mujoco_forward, .context = &c->twin};
   const bench_contest contests[] = {
@@ -93,22 +99,22 @@ bool bench_rhs_cases(bench_list *list) {
        .asked = 3,
        .possible = 3.4,
        .prepare = prepare_full},
+      {.name = "rhs-sympy-paired",
+       .question = "right-hand side: sympy's C (6 x 6) with paired operations / ours",
+       .ours = accelerations,
+       .theirs = {"KanesMethod, 6 x 6", paired, .context = c},
+       .prepare = prepare_paired},
       {.name = "rhs-sympy-reduced",
        .question = "right-hand side, same flags: sympy's C (3 x 3) / ours",
        .ours = accelerations,
        .theirs = {"KanesMethod, 3 x 3", reduced, .context = c},
        .prepare = prepare_reduced},
       {.name = "rhs-mujoco",
-       .question = "mj_forward / right-hand side, library as built",
+       .question = "mj_forward / right-hand side",
        .ours = ours,
        .theirs = forward,
        .asked = 8,
        .possible = 10,
-       .prepare = prepare_mujoco},
-      {.name = "rhs-mujoco-native",
-       .question = "mj_forward / right-hand side, -march=native",
-       .ours = native,
-       .theirs = forward,
        .prepare = prepare_mujoco}};
   bench_add_all(list, contests, sizeof contests / sizeof contests[0], c);
   return true;

@@ -44,14 +44,20 @@ typedef struct bench_list {
 // False with one line on stderr. Groups only set up what costs nothing; the rest is for `prepare`.
 typedef bool bench_group(bench_list *list);
 
-bench_group bench_rhs_cases;    // cases_rhs.c: one right-hand side
-bench_group bench_floor_cases;  // cases_floor.c: the machine's limit
-bench_group bench_ride_cases;   // cases_ride.c: rides of ten seconds
-bench_group bench_map_cases;    // cases_map.c: points of maps, eigenvalues
-bench_group bench_mujoco_cases; // cases_mujoco.c: what rolling costs MuJoCo
+bench_group bench_rhs_cases;      // cases_rhs.c: one right-hand side
+bench_group bench_floor_cases;    // cases_floor.c: the machine's limit
+bench_group bench_batch_cases;    // cases_batch.c: accelerations in lanes
+bench_group bench_jacobian_cases; // cases_jacobian.c: Jacobians and eigenvalues in lanes
+bench_group bench_map_cases;      // cases_map.c: points of maps
+bench_group bench_ride_cases;     // cases_ride.c: rides of ten seconds
+bench_group bench_ensemble_cases; // cases_ensemble.c: many rides
+bench_group bench_mujoco_cases;   // cases_mujoco.c: what rolling costs MuJoCo
 
 #define BENCH_GROUPS                                                                               \
-  { bench_rhs_cases, bench_floor_cases, bench_ride_cases, bench_map_cases, bench_mujoco_cases }
+  {                                                                                                \
+    bench_rhs_cases, bench_floor_cases, bench_batch_cases, bench_jacobian_cases, bench_map_cases,  \
+        bench_ride_cases, bench_ensemble_cases, bench_mujoco_cases                                 \
+  }
 
 // A list of all groups. False with one line on stderr; close it in any case.
 bool bench_list_open(bench_list *out, bench_subject *subject);

@@ -3,6 +3,7 @@
 
 #include "terminal/json.h"
 
+#include <bicycle/batch.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,9 +49,17 @@ json_t *bench_machine(void) {
   uname(&system);
   double load = NAN;
   if (getloadavg(&load, 1) != 1) load = NAN;
-  return json_pack("{s:s, s:o, s:I, s:o, s:s, s:s, s:s, s:s, s:s}", "cpu", cpu[0] ? cpu : "unknown",
-                   "vector_units", vector_units(), "cores",
+  return json_pack("{s:s, s:o, s:s, s:i, s:I, s:o, s:s, s:s, s:s, s:s, s:s}", "cpu",
+                   cpu[0] ? cpu : "unknown", "vector_units", vector_units(), "instructions",
+                   bike_instructions(), "lanes", bike_batch_width(), "cores",
                    (json_int_t)sysconf(_SC_NPROCESSORS_ONLN), "load", term_json_number(load),
                    "architecture", system.machine, "system", system.release, "compiler",
                    BENCH_COMPILER, "build", BENCH_BUILD, "native_flags", BENCH_NATIVE_FLAGS);
+}
+
+void bench_machine_line(char *out, size_t size) {
+  char cpu[256];
+  cpu_line(cpu, sizeof cpu, "model name");
+  snprintf(out, size, "%s, instructions %s (%d lanes), %s, %s", cpu[0] ? cpu : "unknown processor",
+           bike_instructions(), bike_batch_width(), BENCH_COMPILER, BENCH_BUILD);
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A copy of our equations built with -O3 -march=native, the flags of sympy's C, under other names
-// than the library's.
+// The instance of our equations that is built with -O3 -march=native, the flags of sympy's C; hands
+// off.
 #ifndef BICYCLE_BENCH_NATIVE_H
 #define BICYCLE_BENCH_NATIVE_H
 
-#include <bicycle/state.h>
+#include "equations/state_instance.h"
 
-int native_accelerate(bike_acceleration *out, const bike_model *model, const bike_state *state,
-                      const bike_input *input);
-int native_rates_of(bike_rates *out, const bike_model *model, const bike_state *state,
-                    const bike_input *input);
+extern const state_functions state_native;
+
+static inline int native_accelerate(bike_acceleration *out, const bike_model *model,
+                                    const bike_state *state) {
+  static const bike_input HANDS_OFF = {0};
+  return state_native.accelerate(out, model, state, &HANDS_OFF);
+}
 
 #endif

@@ -33,7 +33,7 @@ void bench_exact_points(void *context, long repeats) {
   bike_turn turn = row->first, next;
   for (long i = 0; i < repeats; i++) {
     if (i % ROW == 0) turn = row->first;
-    bike_turn_def def = question(row, row->start + row->step * (double)(1 + i % ROW));
+    bike_turn_def def = question(row, bench_row_lean(row, i));
     if (bike_turn_near(&next, row->model, &def, &turn)) return;
     turn = next;
     row->sink = turn.eps_max;
@@ -75,50 +75,100 @@ static int equilibrium(double x[2], const bench_row *row, double lean) {
 }
 
 // Steer'', lean'' and energy at the state (steer, lean, steer rate, lean rate, speed).
-static int sampled(double out[3], const bench_row *row, const double y[5], double offset) {
+static int sampled(double out[3], const bike_model *model, const double y[5], double offset) {
   bike_state s = {
       .lean = y[1], .steer = y[0], .lean_rate = y[3], .steer_rate = y[2], .speed = y[4]};
   bike_input in = {.rider_offset = offset};
   bike_snapshot now;
-  int code = bike_evaluate(&now, row->model, &s, &in);
+  int code = bike_evaluate(&now, model, &s, &in);
   out[0] = now.acceleration.steer;
   out[1] = now.acceleration.lean;
   out[2] = now.kinetic + now.potential;
   return code;
 }
 
-static int difference_eigenvalues(bike_eigenvalues *out, const bench_row *row, double lean,
-                                  const double x[2]) {
+int bench_differences(double A[16], const bike_model *model, const bike_state *state,
+                      double offset) {
   const double h = 1e-6;
-  double y[5] = {x[0], lean, 0, 0, row->speed}, slope[3][5];
+  double y[5] = {state->steer, state->lean, state->steer_rate, state->lean_rate, state->speed};
+  double slope[3][5];
   for (int j = 0; j < 5; j++) {
     double up[5], down[5], above[3], below[3];
     for (int k = 0; k < 5; k++) up[k] = down[k] = y[k];
     up[j] += h;
     down[j] -= h;
-    int code = sampled(above, row, up, x[1]);
-    if (!code) code = sampled(below, row, down, x[1]);
+    int code = sampled(above, model, up, offset);
+    if (!code) code = sampled(below, model, down, offset);
     if (code) return code;
     for (int i = 0; i < 3; i++) slope[i][j] = (above[i] - below[i]) / (2 * h);
   }
-  double A[16] = {0, 0, 1, 0, 0, 0, 0, 1};
+  for (int k = 0; k < 8; k++) A[k] = k == 2 || k == 7;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 4; j++)
       A[4 * (i + 2) + j] = slope[i][j] - slope[i][4] * slope[2][j] / slope[2][4];
-  return bike_eigenvalues_of(out, A);
+  return BIKE_OK;
+}
+
+double bench_row_lean(const bench_row *row, long i) {
+  return row->start + row->step * (double)(1 + i % ROW);
+}
+
+int bench_difference_point(bike_map_node *out, const bench_row *row, double lean,
+                           const bike_map_node *from) {
+  double x[2] = {from->steer, from->rider_offset}, A[16];
+  int code = equilibrium(x, row, lean);
+  if (code) return code;
+  bike_state state = {.lean = lean, .steer = x[0], .speed = row->speed};
+  code = bench_differences(A, row->model, &state, x[1]);
+  if (!code) code = bike_eigenvalues_of(&out->eigenvalues, A);
+  out->steer = x[0];
+  out->rider_offset = x[1];
+  out->eps_max = out->eigenvalues.re[0];
+  return code;
+}
+
+static bike_map_node first_of(const bench_row *row) {
+  return (bike_map_node){.steer = row->first.steer, .rider_offset = row->first.rider_offset};
 }
 
 void bench_difference_points(void *context, long repeats) {
   bench_row *row = context;
-  double x[2] = {row->first.steer, row->first.rider_offset};
+  bike_map_node node = first_of(row), next;
   for (long i = 0; i < repeats; i++) {
-    if (i % ROW == 0) {
-      x[0] = row->first.steer;
-      x[1] = row->first.rider_offset;
-    }
-    double lean = row->start + row->step * (double)(1 + i % ROW);
-    bike_eigenvalues e;
-    if (equilibrium(x, row, lean) || difference_eigenvalues(&e, row, lean, x)) return;
-    row->sink = e.re[0];
+    if (i % ROW == 0) node = first_of(row);
+    if (bench_difference_point(&next, row, bench_row_lean(row, i), &node)) return;
+    node = next;
+    row->sink = node.eps_max;
   }
+}
+
+// The largest of steer, rider offset and eps_max.
+static double difference(const bike_map_node *a, const bike_map_node *b) {
+  double worst = fmax(fabs(a->steer - b->steer), fabs(a->rider_offset - b->rider_offset));
+  double rate = fabs(a->eps_max - b->eps_max);
+  return isfinite(worst + rate) ? fmax(worst, rate) : INFINITY;
+}
+
+double bench_row_disagreement(const bench_row *row) {
+  double leans[ROW + 1], worst = 0;
+  leans[0] = row->start;
+  for (long i = 0; i < ROW; i++) leans[i + 1] = bench_row_lean(row, i);
+  static bike_map_node nodes[ROW + 1];
+  bike_map_def def = {
+      .speeds = &row->speed, .leans = leans, .speed_count = 1, .lean_count = ROW + 1, .threads = 1};
+  if (bike_map_turns(nodes, row->model, &def)) return INFINITY;
+  bike_map_node node = first_of(row), next = {0};
+  bike_turn turn = row->first, beside;
+  for (long i = 0; i < ROW; i++) {
+    bike_turn_def wanted = question(row, leans[i + 1]);
+    if (bench_difference_point(&next, row, leans[i + 1], &node) ||
+        bike_turn_near(&beside, row->model, &wanted, &turn))
+      return INFINITY;
+    bike_map_node near = {
+        .steer = beside.steer, .rider_offset = beside.rider_offset, .eps_max = beside.eps_max};
+    worst = fmax(worst, fmax(difference(&next, &nodes[i + 1]), difference(&near, &nodes[i + 1])));
+    node = next;
+    turn = beside;
+  }
+  return worst;
 }

@@ -69,6 +69,9 @@ bool bench_print_table(const bench_line *lines, size_t count) {
       {"ratio", TERM_RIGHT}, {"quartiles", TERM_LEFT}, {"asked", TERM_LEFT}, {"met?", TERM_LEFT}};
   term_table *table = term_table_create(COLUMNS, sizeof COLUMNS / sizeof COLUMNS[0]);
   for (size_t i = 0; i < count; i++) add_row(table, &lines[i]);
+  char machine[512];
+  bench_machine_line(machine, sizeof machine);
+  printf("%s\n\n", machine);
   bool written = term_table_print(table, stdout);
   term_table_free(table);
   for (size_t i = 0; i < count; i++)

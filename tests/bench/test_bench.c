@@ -3,17 +3,39 @@
 #include "cli/run.h"
 #include "support/near.h"
 
+#include <bicycle/batch.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char *const EXPECTED[] = {
-    "rhs-sympy",        "rhs-sympy-reduced",  "rhs-mujoco",      "rhs-mujoco-native",
-    "floor-operations", "floor-instructions", "ride-lsoda",      "ride-odeint",
-    "ride-solve-ivp",   "ride-lsoda-default", "ride-dop853",     "ride-dop853-python",
-    "ride-mujoco",      "ride-overhead",      "map-point",       "map-differences",
-    "map-eigenvalues",  "mujoco-step",        "mujoco-callback",
+    "rhs-sympy",
+    "rhs-sympy-paired",
+    "rhs-sympy-reduced",
+    "rhs-mujoco",
+    "floor-operations",
+    "floor-instructions",
+    "batch-one",
+    "batch-many",
+    "jacobian-differences",
+    "jacobian-eigenvalues",
+    "map-point",
+    "map-point-alone",
+    "map-differences",
+    "ride-lsoda",
+    "ride-odeint",
+    "ride-solve-ivp",
+    "ride-lsoda-default",
+    "ride-dop853",
+    "ride-dop853-python",
+    "ride-mujoco",
+    "ride-overhead",
+    "ensemble-sundials",
+    "ensemble-plain",
+    "ensemble-threads",
+    "mujoco-step",
+    "mujoco-callback",
 };
 
 static const char *text(const json_t *object, const char *key) {
@@ -65,7 +87,10 @@ static void all_contests_are_judged(void **state) {
   size_t i;
   json_t *contest;
   json_array_foreach(json_object_get(document, "contests"), i, contest) check_contest(contest);
-  assert_true(text(json_object_get(document, "machine"), "cpu")[0] != 0);
+  const json_t *machine = json_object_get(document, "machine");
+  assert_true(text(machine, "cpu")[0] != 0);
+  assert_string_equal(text(machine, "instructions"), bike_instructions());
+  assert_near(run_number(machine, "lanes"), bike_batch_width(), 0);
   json_decref(document);
 }
 

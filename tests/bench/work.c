@@ -26,19 +26,7 @@ void bench_native_accelerations(void *context, long repeats) {
   double sum = 0;
   for (long i = 0; i < repeats; i++) {
     state.lean = s->state.lean + 1e-9 * (double)i;
-    if (!native_accelerate(&a, &s->model, &state, NULL)) sum += a.lean;
-  }
-  sink = sum;
-}
-
-void bench_native_right_hand_sides(void *context, long repeats) {
-  const bench_subject *s = context;
-  bike_state state = s->state;
-  bike_rates rates;
-  double sum = 0;
-  for (long i = 0; i < repeats; i++) {
-    state.lean = s->state.lean + 1e-9 * (double)i;
-    if (!native_rates_of(&rates, &s->model, &state, NULL)) sum += rates.acceleration.lean;
+    if (!native_accelerate(&a, &s->model, &state)) sum += a.lean;
   }
   sink = sum;
 }

@@ -6,13 +6,11 @@
 #include "list.h"
 #include "twin.h"
 
-// One right-hand side with bike_rates_of of the library as it is built and installed; `subject` is
+// One right-hand side with bike_rates_of of the library as its users get it; `subject` is
 // a bench_subject.
 void bench_right_hand_sides(void *subject, long repeats);
 
-// The same, and the accelerations alone, with the copy of our equations built for this machine
-// (native.h).
-void bench_native_right_hand_sides(void *subject, long repeats);
+// The accelerations alone, with the instance of our equations built for this machine (native.h).
 void bench_native_accelerations(void *subject, long repeats);
 
 // mj_forward without callback, sensors and contacts: what MuJoCo needs for the accelerations alone.

@@ -43,7 +43,7 @@ bool sympy_agreement(bench_notes *notes, sympy_accelerator *accelerate, const sy
   for (int i = 0; i < STATES; i++) {
     bike_state state = random_state(seed);
     bike_acceleration ours, theirs;
-    if (native_accelerate(&ours, &subject->model, &state, NULL)) continue; // outside the model
+    if (native_accelerate(&ours, &subject->model, &state)) continue; // outside the model
     if (!accelerate(&theirs, p, &state)) continue;
     worst = fmax(worst, acceleration_difference(&theirs, &ours));
     compared++;

@@ -39,4 +39,7 @@ bool sympy_accelerate_reduced(bike_acceleration *out, const sympy_bicycle *p,
 typedef bool sympy_accelerator(bike_acceleration *out, const sympy_bicycle *p,
                                const bike_state *state);
 
+// The first, compiled with -ftree-slp-vectorize.
+sympy_accelerator sympy_accelerate_paired;
+
 #endif
