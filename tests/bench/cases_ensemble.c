@@ -10,10 +10,11 @@
 #include <unistd.h>
 
 // Two threads share what is left at the end the better the more there is.
-enum { RIDES = 128, RIDES_OF_THREADS = 256 };
+enum { RIDES = 128, RIDES_OF_THREADS = 256, QUICK_RIDES = 8 };
 
 typedef struct ensemble_cases {
   bench_subject *subject;
+  int rides, rides_of_threads;
   bike_member members[RIDES_OF_THREADS];
   bike_member_result results[RIDES_OF_THREADS];
   bike_state reference[RIDES]; // the ends of rides at the default tolerance of bike_ride
@@ -32,21 +33,24 @@ static bike_ensemble_def question(const ensemble_cases *c, int threads) {
 
 //---------------------------------- contestants ---------------------------------------------------
 
-static int in_lanes(ensemble_cases *c, int threads, size_t rides) {
+static int in_lanes(ensemble_cases *c, int threads, int rides) {
   bike_ensemble_def def = question(c, threads);
-  return bike_ensemble_ride(c->results, c->members, rides, &def);
+  return bike_ensemble_ride(c->results, c->members, (size_t)rides, &def);
 }
 
 static void lanes(void *context, long repeats) {
-  for (long k = 0; k < repeats; k++) in_lanes(context, 1, RIDES);
+  ensemble_cases *c = context;
+  for (long k = 0; k < repeats; k++) in_lanes(c, 1, c->rides);
 }
 
 static void one_thread(void *context, long repeats) {
-  for (long k = 0; k < repeats; k++) in_lanes(context, 1, RIDES_OF_THREADS);
+  ensemble_cases *c = context;
+  for (long k = 0; k < repeats; k++) in_lanes(c, 1, c->rides_of_threads);
 }
 
 static void two_threads(void *context, long repeats) {
-  for (long k = 0; k < repeats; k++) in_lanes(context, 2, RIDES_OF_THREADS);
+  ensemble_cases *c = context;
+  for (long k = 0; k < repeats; k++) in_lanes(c, 2, c->rides_of_threads);
 }
 
 static int pass(const bike_sample *sample, const bike_sample_more *more, void *user) {
@@ -70,10 +74,11 @@ static bool by_sundials(bike_state *end, const ensemble_cases *c, int i, double 
 }
 
 static void sundials(void *context, long repeats) {
-  const bike_ensemble_def def = question(context, 1);
+  const ensemble_cases *c = context;
+  const bike_ensemble_def def = question(c, 1);
   bike_state end;
   for (long k = 0; k < repeats; k++)
-    for (int i = 0; i < RIDES; i++) by_sundials(&end, context, i, def.rtol, def.atol);
+    for (int i = 0; i < c->rides; i++) by_sundials(&end, c, i, def.rtol, def.atol);
 }
 
 static bool plainly(bike_state *end, const ensemble_cases *c, int i, long *evaluations) {
@@ -86,10 +91,11 @@ static bool plainly(bike_state *end, const ensemble_cases *c, int i, long *evalu
 }
 
 static void plain(void *context, long repeats) {
+  const ensemble_cases *c = context;
   bike_state end;
   long evaluations = 0;
   for (long k = 0; k < repeats; k++)
-    for (int i = 0; i < RIDES; i++) plainly(&end, context, i, &evaluations);
+    for (int i = 0; i < c->rides; i++) plainly(&end, c, i, &evaluations);
 }
 
 //---------------------------------- agreement -----------------------------------------------------
@@ -105,9 +111,9 @@ static double distance(const bike_state *a, const bike_state *b) {
 
 // Rolls of all sizes about that of the single ride, at speeds about its speed.
 static void start_all(ensemble_cases *c) {
-  for (int i = 0; i < RIDES_OF_THREADS; i++) {
+  for (int i = 0; i < c->rides_of_threads; i++) {
     bike_state start = c->subject->ride_start;
-    start.lean_rate *= 0.2 + 0.8 * (i + 1) / RIDES_OF_THREADS;
+    start.lean_rate *= 0.2 + 0.8 * (i + 1) / c->rides_of_threads;
     start.speed *= 1 + 0.01 * (i % 9 - 4);
     c->members[i] = (bike_member){.model = &c->subject->model, .start = start};
   }
@@ -117,7 +123,7 @@ static bool settle(ensemble_cases *c, bench_notes *notes) {
   if (c->ready) return true;
   start_all(c);
   const bike_ride_def exact = bike_default_ride_def();
-  for (int i = 0; i < RIDES; i++)
+  for (int i = 0; i < c->rides; i++)
     if (!by_sundials(&c->reference[i], c, i, exact.rtol, exact.atol))
       return bench_note_reason(notes, "the bicycle does not ride for %g s", c->subject->ride_time);
   c->ready = true;
@@ -125,14 +131,14 @@ static bool settle(ensemble_cases *c, bench_notes *notes) {
 }
 
 // How far the lanes are from the rides at the default tolerance.
-static bool note_lanes(ensemble_cases *c, size_t rides, int threads, bench_notes *notes) {
+static bool note_lanes(ensemble_cases *c, int rides, int threads, bench_notes *notes) {
   if (!settle(c, notes)) return false;
   if (in_lanes(c, threads, rides)) return bench_note_reason(notes, "the ensemble is refused");
   double worst = 0, evaluations = 0;
-  for (int i = 0; i < RIDES; i++) {
+  for (int i = 0; i < c->rides; i++) {
     bool complete = c->results[i].outcome == BIKE_OUTCOME_COMPLETE;
     worst = fmax(worst, complete ? distance(&c->results[i].end, &c->reference[i]) : INFINITY);
-    evaluations += (double)c->results[i].evaluations / RIDES;
+    evaluations += (double)c->results[i].evaluations / c->rides;
   }
   bench_note_value(notes, "lanes", bike_batch_width());
   bench_note_check(notes, "our error", worst, ENDS_AGREE);
@@ -142,10 +148,10 @@ static bool note_lanes(ensemble_cases *c, size_t rides, int threads, bench_notes
 
 static bool prepare_sundials(void *context, bench_notes *notes) {
   ensemble_cases *c = context;
-  if (!note_lanes(c, RIDES, 1, notes)) return false;
+  if (!note_lanes(c, c->rides, 1, notes)) return false;
   const bike_ensemble_def def = question(c, 1);
   double worst = 0;
-  for (int i = 0; i < RIDES; i++) {
+  for (int i = 0; i < c->rides; i++) {
     bike_state end;
     bool done = by_sundials(&end, c, i, def.rtol, def.atol);
     worst = fmax(worst, done ? distance(&end, &c->reference[i]) : INFINITY);
@@ -156,48 +162,53 @@ static bool prepare_sundials(void *context, bench_notes *notes) {
 
 static bool prepare_plain(void *context, bench_notes *notes) {
   ensemble_cases *c = context;
-  if (!note_lanes(c, RIDES, 1, notes)) return false;
+  if (!note_lanes(c, c->rides, 1, notes)) return false;
   double worst = 0;
   long evaluations = 0;
-  for (int i = 0; i < RIDES; i++) {
+  for (int i = 0; i < c->rides; i++) {
     bike_state end;
     bool done = plainly(&end, c, i, &evaluations);
     worst = fmax(worst, done ? distance(&end, &c->reference[i]) : INFINITY);
   }
   bench_note_check(notes, "their error", worst, ENDS_AGREE);
-  bench_note_value(notes, "their evaluations", (double)evaluations / RIDES);
+  bench_note_value(notes, "their evaluations", (double)evaluations / c->rides);
   return true;
 }
 
 static bool prepare_threads(void *context, bench_notes *notes) {
   if (sysconf(_SC_NPROCESSORS_ONLN) < 2) return bench_note_reason(notes, "one core alone");
-  return note_lanes(context, RIDES_OF_THREADS, 2, notes);
+  ensemble_cases *c = context;
+  return note_lanes(c, c->rides_of_threads, 2, notes);
 }
 
 bool bench_ensemble_cases(bench_list *list) {
   ensemble_cases *c = bench_new(list, sizeof *c, NULL);
   c->subject = list->subject;
-  const bench_runner ours = {"bike_ensemble_ride", lanes, .context = c, .units = RIDES};
+  c->rides = c->subject->quick ? QUICK_RIDES : RIDES;
+  c->rides_of_threads = c->subject->quick ? QUICK_RIDES : RIDES_OF_THREADS;
+  const bench_runner ours = {"bike_ensemble_ride", lanes, .context = c, .units = c->rides};
   double asked = bike_batch_width() == 8 ? 5 : 0, possible = bike_batch_width() == 8 ? 6.6 : 0;
   const bench_contest contests[] = {
       {.name = "ensemble-sundials",
        .question = "rides of an ensemble: bike_ride, one by one / lanes",
        .ours = ours,
-       .theirs = {"bike_ride", sundials, .context = c, .units = RIDES},
+       .theirs = {"bike_ride", sundials, .context = c, .units = c->rides},
        .asked = asked,
        .possible = possible,
        .prepare = prepare_sundials},
       {.name = "ensemble-plain",
        .question = "rides of an ensemble: the same steps in scalar code / lanes",
        .ours = ours,
-       .theirs = {"scalar steps", plain, .context = c, .units = RIDES},
+       .theirs = {"scalar steps", plain, .context = c, .units = c->rides},
        .asked = asked,
        .possible = possible,
        .prepare = prepare_plain},
       {.name = "ensemble-threads",
        .question = "rides of an ensemble, by the clock: 1 thread / 2 threads",
-       .ours = {"2 threads", two_threads, .context = c, .threads = true, .units = RIDES_OF_THREADS},
-       .theirs = {"1 thread", one_thread, .context = c, .threads = true, .units = RIDES_OF_THREADS},
+       .ours = {"2 threads", two_threads, .context = c, .threads = true,
+                .units = c->rides_of_threads},
+       .theirs = {"1 thread", one_thread, .context = c, .threads = true,
+                  .units = c->rides_of_threads},
        .asked = 1.7,
        .possible = 1.83,
        .prepare = prepare_threads}};
