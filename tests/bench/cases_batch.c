@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Accelerations of many states: one by one, and in the lanes of vector registers.
-#include "peers/agreement.h"
+#include "floor/floor.h"
+#include "list.h"
 
 #include <bicycle/batch.h>
 #include <math.h>
@@ -24,6 +25,7 @@ typedef struct batch_case {
   bike_acceleration scalar[STATES];
   batch_states rates; // of the lanes
   int codes[STATES];
+  bench_count count;
 } batch_case;
 
 static const bike_model *model_of(const batch_case *c, int i) {
@@ -53,6 +55,12 @@ static int lanes_once(batch_case *c) {
 
 static void lanes(void *context, long repeats) {
   for (long k = 0; k < repeats; k++) lanes_once(context);
+}
+
+static void vector_instructions(void *context, long repeats) {
+  const batch_case *c = context;
+  int width = bike_batch_width();
+  bench_fma_vector_chains((double)repeats * c->count.instructions * STATES / width, width);
 }
 
 //---------------------------------- states and bicycles -------------------------------------------
@@ -117,12 +125,20 @@ static bool prepare(void *context, bench_notes *notes) {
   return true;
 }
 
+static bool prepare_floor(void *context, bench_notes *notes) {
+  batch_case *c = context;
+  if (!bench_fma_known() || !bench_count_kernel(&c->count))
+    return bench_note_reason(notes, "the kernel's machine code could not be counted");
+  bench_note_value(notes, "instructions", c->count.instructions);
+  return prepare(c, notes);
+}
+
 static void end(void *context) {
   batch_case *c = context;
   bike_batch_free(c->batch);
 }
 
-static void add(bench_list *list, const char *name, const char *question, bool many) {
+static batch_case *add(bench_list *list, const char *name, const char *question, bool many) {
   batch_case *c = bench_new(list, sizeof *c, end);
   c->subject = list->subject;
   c->many = many;
@@ -140,10 +156,20 @@ static void add(bench_list *list, const char *name, const char *question, bool m
                                                : 0,
                       .prepare = prepare,
                       .context = c});
+  return c;
 }
 
 bool bench_batch_cases(bench_list *list) {
-  add(list, "batch-one", "accelerations of one bicycle: scalar / lanes", false);
+  batch_case *one = add(list, "batch-one", "accelerations of one bicycle: scalar / lanes", false);
+  bench_add(list,
+            &(bench_contest){
+                .name = "batch-floor",
+                .question = "accelerations in lanes / their fused instructions as vector FMAs",
+                .ours = {"bike_batch_accelerate", lanes, .context = one, .units = STATES},
+                .theirs = {"FMA, 12 chains", vector_instructions, .context = one, .units = STATES},
+                .sense = BENCH_AT_MOST,
+                .prepare = prepare_floor,
+                .context = one});
   add(list, "batch-many", "accelerations of many bicycles: scalar / lanes", true);
   return true;
 }

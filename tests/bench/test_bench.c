@@ -17,6 +17,7 @@ static const char *const EXPECTED[] = {
     "floor-operations",
     "floor-instructions",
     "batch-one",
+    "batch-floor",
     "batch-many",
     "jacobian-differences",
     "jacobian-eigenvalues",

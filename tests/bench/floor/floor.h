@@ -6,8 +6,8 @@
 //   operations    compiled without fused multiply-adds: every +, -, *, / and square root is one
 //   instructions  compiled with them: an instruction that multiplies and adds is one
 // The floor that is asked about is the second, the lower one: no scalar code of these formulas gets
-// under it. Quotients and square roots count like products though they
-// cost more, and nothing is added for loads, stores and moves.
+// under it. Quotients and square roots count like products though they cost more, and nothing is
+// added for loads, stores and moves. Lanes do the same instructions with vectors.
 #ifndef BICYCLE_BENCH_FLOOR_H
 #define BICYCLE_BENCH_FLOOR_H
 
@@ -25,5 +25,8 @@ bool bench_fma_known(void);
 
 // That many scalar fused multiply-adds (rounded up to a dozen), in a dozen independent chains.
 void bench_fma_chains(double count);
+
+// The same with vectors of 8, 4 or 2 numbers, each one instruction.
+void bench_fma_vector_chains(double count, int lanes);
 
 #endif

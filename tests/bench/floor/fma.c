@@ -38,3 +38,34 @@ void bench_fma_chains(double count) {
   }
   sink = a + b + c + e + g + h + i + j + k + l + m + n;
 }
+
+// The same with as many numbers side by side as a register of the lanes holds.
+#define VECTOR_CHAINS(name, lanes)                                                                 \
+  static void name(long loops) {                                                                   \
+    typedef double wide __attribute__((vector_size((lanes) * sizeof(double))));                    \
+    static volatile double factor = 0.999999, addend = 1e-6;                                       \
+    const wide f = (wide){0} + factor, d = (wide){0} + addend;                                     \
+    wide a = d, b = f, c = a + 1, e = a + 2, g = a + 3, h = a + 4;                                 \
+    wide i = a + 5, j = a + 6, k = a + 7, l = a + 8, m = a + 9, n = a + 10;                        \
+    for (; loops > 0; loops--) {                                                                   \
+      a = a * f + d, b = b * f + d, c = c * f + d, e = e * f + d;                                  \
+      g = g * f + d, h = h * f + d, i = i * f + d, j = j * f + d;                                  \
+      k = k * f + d, l = l * f + d, m = m * f + d, n = n * f + d;                                  \
+    }                                                                                              \
+    wide sum = a + b + c + e + g + h + i + j + k + l + m + n;                                      \
+    sink = sum[0] + sum[(lanes)-1];                                                                \
+  }
+
+VECTOR_CHAINS(chains_of_8, 8)
+VECTOR_CHAINS(chains_of_4, 4)
+VECTOR_CHAINS(chains_of_2, 2)
+
+void bench_fma_vector_chains(double count, int lanes) {
+  long loops = (long)ceil(count / CHAINS);
+  if (lanes == 8)
+    chains_of_8(loops);
+  else if (lanes == 4)
+    chains_of_4(loops);
+  else
+    chains_of_2(loops);
+}
