@@ -71,6 +71,21 @@ char *support_read(const char *path) {
   return text;
 }
 
+double support_csv_value(const char *path, const char *column, int row) {
+  char *text = support_read(path), *line = text;
+  assert_non_null(text);
+  int index = 0;
+  char *header = strndup(text, strcspn(text, "\n")), *rest = header, *word;
+  while ((word = strsep(&rest, ",")) && strcmp(word, column) != 0) index++;
+  assert_non_null(word);
+  for (int i = 0; i <= row; i++) line = strchr(line, '\n') + 1;
+  for (int i = 0; i < index; i++) line = strchr(line, ',') + 1;
+  double value = strtod(line, NULL);
+  free(header);
+  free(text);
+  return value;
+}
+
 char *support_replace(const char *text, const char *from, const char *to) {
   char *copy = NULL;
   const char *at = from ? strstr(text, from) : text;

@@ -15,6 +15,9 @@ char *support_write(const char *folder, const char *name, const char *text);
 // The whole file, allocated; NULL if there is none.
 char *support_read(const char *path);
 
+// The number in a column, by its header, and a row, from 0, of a CSV file.
+double support_csv_value(const char *path, const char *column, int row);
+
 // A copy of `text` with its first `from` replaced, which must be there; allocated. Without `from` a
 // plain copy.
 char *support_replace(const char *text, const char *from, const char *to);
