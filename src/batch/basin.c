@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "batch/fate.h"
 #include "batch/parallel.h"
 
 const char *bike_fate_string(bike_fate fate) {
@@ -31,38 +32,13 @@ static int find_stable(bool *out, const bike_model *model, double speed) {
   return code;
 }
 
-static bike_ensemble_def ensemble_of(const bike_basin_def *def, bool stable) {
-  bike_ensemble_def ensemble = bike_default_ensemble_def();
-  ensemble.duration = def->duration;
-  ensemble.settled = stable ? def->settled : 0;
-  ensemble.rtol = 1e-9; // fates change at the edge of the basin alone, by less than a picture shows
-  ensemble.atol = 1e-11;
-  ensemble.threads = def->threads;
-  ensemble.progress = def->progress;
-  ensemble.user = def->user;
-  return ensemble;
-}
-
 // A start of the energy of riding straight; false: there is none.
 static int start_of(bike_state *out, bool *exists, const bike_model *model, double speed,
                     double lean, double steer) {
   *out = (bike_state){.lean = lean, .steer = steer};
   int code = bike_speed_of_equal_energy(&out->speed, model, out, speed);
   *exists = !code;
-  bool none = code == BIKE_ERROR_GEOMETRY || code == BIKE_ERROR_SINGULAR ||
-              code == BIKE_ERROR_NOT_STATIONARY;
-  return none ? BIKE_OK : code;
-}
-
-static bike_fate fate_of(const bike_member_result *r) {
-  switch (r->outcome) {
-  case BIKE_OUTCOME_SETTLED:
-    return r->lifted ? BIKE_FATE_LIFTED : BIKE_FATE_STRAIGHT;
-  case BIKE_OUTCOME_COMPLETE:
-    return BIKE_FATE_RIDING;
-  default:
-    return BIKE_FATE_FALLEN;
-  }
+  return fate_is_no_start(code) ? BIKE_OK : code;
 }
 
 // Room for the members of a grid, and where in it each stands.
@@ -108,12 +84,13 @@ static int ride_all(grid *g, bike_fate *out, double *times, const bike_model *mo
   int code = find_stable(&stable, model, def->speed);
   if (!code) code = allocate(g, def->lean_count * def->steer_count);
   if (!code) code = gather(g, out, model, def);
-  bike_ensemble_def ensemble = ensemble_of(def, stable);
+  bike_ensemble_def ensemble = fate_ensemble(def);
+  if (!stable) ensemble.settled = 0;
   if (!code) code = bike_ensemble_ride(g->results, g->members, g->count, &ensemble);
   for (size_t i = 0; i < g->count && !code; i++) {
     const bike_member_result *r = &g->results[i];
     code = r->error;
-    out[g->places[i]] = fate_of(r);
+    out[g->places[i]] = fate_of_result(r);
     if (times) times[g->places[i]] = r->time;
   }
   return code;

@@ -106,6 +106,16 @@ static void member_done(const lanes_ended *end, void *user) {
   count_done(w);
 }
 
+static bool is_quiet(size_t member, const bike_state *state, void *user) {
+  const work *all = ((const worker *)user)->work;
+  return member_is_quiet(&all->members[member], state, all->def->settled);
+}
+
+static bool has_settled(size_t member, const bike_state *state, void *user) {
+  const work *all = ((const worker *)user)->work;
+  return member_has_settled(&all->members[member], state, all->def);
+}
+
 static void ride_share(size_t share, void *user) {
   (void)share; // any thread may take any
   work *all = user;
@@ -117,7 +127,8 @@ static void ride_share(size_t share, void *user) {
                          .lean_limit = def->lean_limit,
                          .look = def->settled > 0 ? MEMBER_LOOK : 0,
                          .looks_settled = MEMBER_LOOKS_SETTLED,
-                         .settled = def->settled,
+                         .quiet = is_quiet,
+                         .settled = has_settled,
                          .watch_lift = def->watch_lift,
                          .next = next_member,
                          .done = member_done,

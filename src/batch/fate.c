@@ -1,109 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a ride from any start.
-#include <bicycle/basin.h>
+// What becomes of rides from any start.
+#include "batch/fate.h"
 
-#include <bicycle/cycle.h>
 #include <bicycle/error.h>
-#include <bicycle/ride.h>
 #include <bicycle/stability.h>
 #include <math.h>
+#include <stdlib.h>
 
-// Looked at this often, riding straight for a second cannot be a passage of an oscillation.
-static const double LOOK = 0.05; // s
-static const int LOOKS_SETTLED = 20;
+#include "batch/parallel.h"
 
-// What is looked for during a ride.
-typedef struct watch {
-  const bike_model *model;
-  double settled;      // rad, rad/s
-  bool straight;       // lean and steer must be small too, not only their rates
-  bool judges;         // asks at the end of the second whether this motion is stable
-  int quiet;           // looks in a row
-  double rider_offset; // m  all the time
-} watch;
-
-// Whether every motion about the one that the ride has settled to decays.
-static bool attracts(const watch *w, const bike_sample *s) {
-  bike_linear linear;
-  bike_eigenvalues e;
-  bike_state here = {s->lean, s->steer, s->lean_rate, s->steer_rate, s->speed};
-  bike_input input = {.rider_offset = w->rider_offset};
-  if (w->straight) here = (bike_state){.speed = s->speed};
-  return !bike_linearize(&linear, w->model, &here, &input) && !bike_eigenvalues_of(&e, linear.A) &&
-         bike_all_decay(&e);
+bike_ensemble_def fate_ensemble(const bike_basin_def *def) {
+  bike_ensemble_def ensemble = bike_default_ensemble_def();
+  ensemble.duration = def->duration;
+  ensemble.settled = def->settled;
+  ensemble.rtol = 1e-9; // fates change at the edge of the basin alone, by less than a picture shows
+  ensemble.atol = 1e-11;
+  ensemble.threads = def->threads;
+  ensemble.progress = def->progress;
+  ensemble.user = def->user;
+  return ensemble;
 }
 
-static int look(const bike_sample *s, const bike_sample_more *more, void *user) {
-  (void)more;
-  watch *w = user;
-  double most = fmax(fabs(s->lean_rate), fabs(s->steer_rate));
-  if (w->straight) most = fmax(most, fmax(fabs(s->lean), fabs(s->steer)));
-  w->quiet = most < w->settled ? w->quiet + 1 : 0;
-  if (w->quiet < LOOKS_SETTLED) return 0;
-  if (!w->judges || attracts(w, s)) return 1;
-  w->quiet = 0;
-  return 0;
-}
-
-static void hold_rider(double time, bike_input *out, void *user) {
-  (void)time;
-  out->rider_offset = ((const watch *)user)->rider_offset;
-}
-
-static bool is_lifted(const bike_ride_result *result) {
-  for (int i = 0; i < result->event_count && i < BIKE_MAX_EVENTS; i++) {
-    bike_event_kind kind = result->events[i].kind;
-    if (kind == BIKE_EVENT_REAR_LIFT || kind == BIKE_EVENT_FRONT_LIFT) return true;
+bike_fate fate_of_result(const bike_member_result *r) {
+  switch (r->outcome) {
+  case BIKE_OUTCOME_SETTLED:
+    return r->lifted ? BIKE_FATE_LIFTED : BIKE_FATE_STRAIGHT;
+  case BIKE_OUTCOME_COMPLETE:
+    return BIKE_FATE_RIDING;
+  default:
+    return BIKE_FATE_FALLEN;
   }
-  return false;
 }
 
-static bool is_no_start(int code) {
+bool fate_is_no_start(int code) {
   return code == BIKE_ERROR_GEOMETRY || code == BIKE_ERROR_SINGULAR ||
          code == BIKE_ERROR_NOT_STATIONARY;
 }
 
-// Rides until the watch sees what it looks for, or the end.
-static int ride_out(bike_fate *out, double *time, const bike_basin_def *def,
-                    const bike_state *start, watch *w) {
-  bike_ride_def ride = bike_default_ride_def();
-  ride.start = *start;
-  ride.duration = def->duration;
-  ride.sample = LOOK;
-  ride.rtol = 1e-9; // fates change at the edge of the basin alone, by less than a picture shows
-  ride.atol = 1e-11;
-  ride.on_sample = look;
-  ride.user = w;
-  if (w->rider_offset != 0) ride.input = hold_rider;
-  bike_ride_result result;
-  int code = bike_ride(&result, w->model, &ride);
-  if (time) *time = result.end_time;
-  if (code && code != BIKE_ERROR_INTERRUPTED) return code;
-  if (code == BIKE_ERROR_INTERRUPTED)
-    *out = is_lifted(&result) ? BIKE_FATE_LIFTED : BIKE_FATE_STRAIGHT;
-  else
-    *out = result.complete ? BIKE_FATE_RIDING : BIKE_FATE_FALLEN;
+// Whether every motion about the one to which a ride has settled decays: a slow fall looks settled
+// for a long time.
+static bool attracts(const bike_member *member, const bike_state *state, void *user) {
+  (void)user;
+  bike_linear linear;
+  bike_eigenvalues e;
+  bike_state straight = {.speed = state->speed};
+  const bike_state *about = member->circles ? state : &straight;
+  return !bike_linearize(&linear, member->model, about, &member->input) &&
+         !bike_eigenvalues_of(&e, linear.A) && bike_all_decay(&e);
+}
+
+typedef struct starts {
+  size_t count; // of those that ride
+  bike_member *members;
+  bike_member_result *results;
+  size_t *places;
+} starts;
+
+// The code of a start that cannot be ridden; 0 also where there is no such state.
+static int add(starts *s, const bike_member *member, size_t place) {
+  bike_snapshot first;
+  bike_upright_matrices m;
+  int code = bike_evaluate(&first, member->model, &member->start, &member->input);
+  if (code) return fate_is_no_start(code) ? BIKE_OK : code;
+  bike_member *rides = &s->members[s->count];
+  *rides = *member;
+  rides->circles =
+      member->input.rider_offset != 0 || bike_linearize_upright(&m, member->model) != BIKE_OK;
+  s->places[s->count++] = place;
   return BIKE_OK;
+}
+
+static int ride_all(starts *s, bike_fate *out, double *times, int *codes,
+                    const bike_member *members, size_t count, const bike_basin_def *def) {
+  if (!s->members || !s->results || !s->places) return BIKE_ERROR_MEMORY;
+  for (size_t i = 0; i < count; i++) {
+    out[i] = BIKE_FATE_NO_START;
+    codes[i] = add(s, &members[i], i);
+    if (times) times[i] = 0;
+  }
+  bike_ensemble_def ensemble = fate_ensemble(def);
+  ensemble.judge = attracts;
+  int code = bike_ensemble_ride(s->results, s->members, s->count, &ensemble);
+  for (size_t i = 0; i < s->count && !code; i++) {
+    const bike_member_result *r = &s->results[i];
+    codes[s->places[i]] = r->error;
+    out[s->places[i]] = fate_of_result(r);
+    if (times) times[s->places[i]] = r->time;
+  }
+  return code;
+}
+
+static bool is_right(const bike_member *members, size_t count, const bike_basin_def *def) {
+  bool right = def->duration > 0 && isfinite(def->duration) && def->settled > 0 &&
+               def->threads >= 1 && def->threads <= PARALLEL_MOST_THREADS;
+  for (size_t i = 0; i < count && right; i++) {
+    const bike_input *in = &members[i].input;
+    right = members[i].model && in->steer_torque == 0 && in->roll_torque == 0 &&
+            in->rider_velocity == 0 && in->rider_acceleration == 0;
+  }
+  return right;
+}
+
+int bike_fates_of_starts(bike_fate *out, double *times, int *codes, const bike_member *members,
+                         size_t count, const bike_basin_def *def) {
+  if (!out || !codes || !members || !def || !is_right(members, count, def))
+    return BIKE_ERROR_ARGUMENT;
+  size_t room = count ? count : 1;
+  starts s = {.members = calloc(room, sizeof *s.members),
+              .results = calloc(room, sizeof *s.results),
+              .places = calloc(room, sizeof *s.places)};
+  int code = ride_all(&s, out, times, codes, members, count, def);
+  free(s.members);
+  free(s.results);
+  free(s.places);
+  return code;
 }
 
 int bike_fate_of_start(bike_fate *out, double *time, const bike_model *model,
                        const bike_basin_def *def, const bike_state *start, double rider_offset) {
-  if (!out || !model || !def || !start || !(def->duration >= LOOK) || !(def->settled > 0))
-    return BIKE_ERROR_ARGUMENT;
-  if (time) *time = 0;
-  bike_upright_matrices m;
-  bike_snapshot first;
-  bike_input input = {.rider_offset = rider_offset};
-  int code = bike_evaluate(&first, model, start, &input);
-  if (is_no_start(code)) {
-    *out = BIKE_FATE_NO_START;
-    return BIKE_OK;
-  }
+  if (!out || !model || !def || !start) return BIKE_ERROR_ARGUMENT;
+  bike_member member = {.model = model, .start = *start, .input = {.rider_offset = rider_offset}};
+  bike_basin_def alone = *def;
+  alone.threads = 1;
+  alone.progress = NULL;
+  bike_fate fate;
+  double decided;
+  int own, code = bike_fates_of_starts(&fate, &decided, &own, &member, 1, &alone);
+  if (!code) code = own;
   if (code) return code;
-  watch w = {.model = model,
-             .settled = def->settled,
-             .straight = rider_offset == 0 && !bike_linearize_upright(&m, model),
-             .judges = true,
-             .rider_offset = rider_offset};
-  return ride_out(out, time, def, start, &w);
+  *out = fate;
+  if (time) *time = decided;
+  return BIKE_OK;
 }

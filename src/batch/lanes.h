@@ -51,8 +51,11 @@ typedef struct lanes_ride_def {
   double duration, rtol, atol, lean_limit;
   double look;       // s    riding straight is looked for so often; 0: never
   int looks_settled; //      in a row
-  double settled;    // rad  straight: all of lean, steer and their rates below this
   bool watch_lift;   //
+  // Whether a member rides straight at the moment; and, once it has done so for all of these looks,
+  // whether that ends its ride: if not, they are counted anew.
+  bool (*quiet)(size_t member, const bike_state *state, void *user);
+  bool (*settled)(size_t member, const bike_state *state, void *user);
   bool (*next)(lanes_rider *out, void *user); // false: no more
   void (*done)(const lanes_ended *end, void *user);
   void *user;

@@ -134,11 +134,6 @@ static bike_state state_of(const real y[LANES_STATE], int lane) {
                       .speed = y[LANES_SPEED][lane]};
 }
 
-static bool is_quiet(const bike_state *s, double settled) {
-  return fabs(s->lean) < settled && fabs(s->steer) < settled && fabs(s->lean_rate) < settled &&
-         fabs(s->steer_rate) < settled;
-}
-
 static void take_next(pen *p, int lane, const lanes_ride_def *def) {
   lanes_rider r;
   book *b = &p->books[lane];
@@ -157,7 +152,7 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
                                  [LANES_STEER_RATE] = r.state.steer_rate,
                                  [LANES_SPEED] = r.state.speed};
   for (int i = 0; i < LANES_STATE; i++) p->before[i][lane] = p->y[i][lane] = y[i];
-  b->quiet = is_quiet(&r.state, def->settled);
+  b->quiet = def->look > 0 && def->quiet(r.member, &r.state, def->user);
   p->before_t[lane] = p->t[lane] = 0;
   p->h[lane] = FIRST_STEP;
   p->side[lane] = r.side;
@@ -222,10 +217,15 @@ static bool is_over(lanes_end *end, pen *p, int lane, const lanes_ride_def *def)
   if (p->t[lane] >= next_look(b, def)) {
     bike_state now = state_of(p->y, lane);
     b->looks++;
-    b->quiet = is_quiet(&now, def->settled) ? b->quiet + 1 : 0;
+    b->quiet = def->quiet(b->member, &now, def->user) ? b->quiet + 1 : 0;
+    if (b->quiet >= def->looks_settled) {
+      *end = LANES_SETTLED;
+      if (def->settled(b->member, &now, def->user)) return true;
+      b->quiet = 0;
+    }
   }
-  *end = b->quiet >= def->looks_settled ? LANES_SETTLED : LANES_COMPLETE;
-  return *end == LANES_SETTLED || p->t[lane] >= def->duration;
+  *end = LANES_COMPLETE;
+  return p->t[lane] >= def->duration;
 }
 
 static void accept(pen *p, int lane, const trial *tr, double h, double stop, bool landed) {

@@ -5,24 +5,36 @@
 #include <math.h>
 
 typedef struct watch {
-  const bike_input *input;
-  double settled; // rad
-  int quiet;      // looks in a row
+  const bike_member *member;
+  const bike_ensemble_def *def;
+  int quiet; // looks in a row
 } watch;
+
+bool member_is_quiet(const bike_member *member, const bike_state *s, double settled) {
+  bool steady = fabs(s->lean_rate) < settled && fabs(s->steer_rate) < settled;
+  return steady && (member->circles || (fabs(s->lean) < settled && fabs(s->steer) < settled));
+}
+
+bool member_has_settled(const bike_member *member, const bike_state *state,
+                        const bike_ensemble_def *def) {
+  return !def->judge || def->judge(member, state, def->judge_user);
+}
 
 static int look(const bike_sample *s, const bike_sample_more *more, void *user) {
   (void)more;
   watch *w = user;
-  double most =
-      fmax(fmax(fabs(s->lean), fabs(s->steer)), fmax(fabs(s->lean_rate), fabs(s->steer_rate)));
-  w->quiet = most < w->settled ? w->quiet + 1 : 0;
-  return w->quiet >= MEMBER_LOOKS_SETTLED;
+  bike_state now = {s->lean, s->steer, s->lean_rate, s->steer_rate, s->speed};
+  w->quiet = member_is_quiet(w->member, &now, w->def->settled) ? w->quiet + 1 : 0;
+  if (w->quiet < MEMBER_LOOKS_SETTLED) return 0;
+  if (member_has_settled(w->member, &now, w->def)) return 1;
+  w->quiet = 0;
+  return 0;
 }
 
 static void constant_input(double time, bike_input *out, void *user) {
   (void)time;
   const watch *w = user;
-  *out = *w->input;
+  *out = w->member->input;
 }
 
 static bool is_lifted(const bike_ride_result *ride) {
@@ -58,7 +70,7 @@ static bool has_input(const bike_input *in) {
 
 void member_ride_on(bike_member_result *out, const bike_member *member, double time,
                     const bike_state *state, const bike_ensemble_def *def) {
-  watch w = {.input = &member->input, .settled = def->settled};
+  watch w = {.member = member, .def = def};
   bike_ride_def ride = bike_default_ride_def();
   ride.start = *state;
   ride.duration = def->duration - time;

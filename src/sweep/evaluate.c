@@ -70,23 +70,6 @@ static const char *outcome_of(bike_fate fate) {
   }
 }
 
-static int answer_outcome(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
-  bike_basin_def def = bike_default_basin_def();
-  bike_state start = point->start;
-  bike_fate fate;
-  int code = BIKE_OK;
-  def.duration = spec->ride_time;
-  def.settled = spec->settled;
-  if (spec->same_energy)
-    code = bike_speed_of_equal_energy(&start.speed, &point->model, &start, start.speed);
-  if (!code)
-    code = bike_fate_of_start(&fate, &row->numbers[SWEEP_TIME], &point->model, &def, &start,
-                              point->rider_offset);
-  if (code) return code;
-  row->outcome = outcome_of(fate);
-  return fate == BIKE_FATE_NO_START ? BIKE_ERROR_GEOMETRY : BIKE_OK;
-}
-
 static int answer(sweep_row *row, sweep_output output, const sweep_point *point,
                   const sweep_spec *spec) {
   switch (output) {
@@ -98,9 +81,9 @@ static int answer(sweep_row *row, sweep_output output, const sweep_point *point,
     return answer_eps_max(&row->numbers[output], point);
   case SWEEP_TURN_EPS_MAX:
     return answer_turn(&row->numbers[output], point);
-  case SWEEP_OUTCOME:
+  case SWEEP_OUTCOME: // ridden with the others of the call
   case SWEEP_TIME:
-    return answer_outcome(row, point, spec);
+    return BIKE_OK;
   case SWEEP_OUTPUT_COUNT:
     break;
   }
@@ -113,27 +96,84 @@ static int question_of(sweep_output output) {
   return output >= SWEEP_OUTCOME ? SWEEP_OUTCOME : (int)output;
 }
 
-static void evaluate_point(sweep_row *row, const sweep_spec *spec, long index) {
-  sweep_point point;
+static void fail(sweep_row *row, sweep_output output, int code) {
+  snprintf(row->error, sizeof row->error, "%s: %s", sweep_output_name(output),
+           bike_error_string(code));
+}
+
+// All answers but those of a ride.
+static void evaluate_point(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
   unsigned asked = 0; // bit: a question
-  sweep_point_at(&point, spec, index);
-  row->index = index;
   row->outcome = "";
   row->ranges[0] = '\0';
-  memcpy(row->values, point.values, sizeof row->values);
-  memcpy(row->error, point.error, sizeof row->error);
+  memcpy(row->values, point->values, sizeof row->values);
+  memcpy(row->error, point->error, sizeof row->error);
   for (int i = 0; i < SWEEP_OUTPUT_COUNT; i++) row->numbers[i] = NAN;
   for (int i = 0; i < spec->output_count && !row->error[0]; i++) {
     const sweep_output output = spec->outputs[i];
     if (asked >> question_of(output) & 1U) continue;
     asked |= 1U << question_of(output);
-    const int code = answer(row, output, &point, spec);
-    if (code)
-      snprintf(row->error, sizeof row->error, "%s: %s", sweep_output_name(output),
-               bike_error_string(code));
+    const int code = answer(row, output, point, spec);
+    if (code) fail(row, output, code);
   }
 }
 
+// The rides of one call, side by side in the lanes of an ensemble.
+typedef struct rides {
+  size_t count;
+  bike_member members[SWEEP_MOST_ROWS];
+  sweep_row *rows[SWEEP_MOST_ROWS];
+} rides;
+
+static void add_ride(rides *all, sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
+  bike_state start = point->start;
+  int code = spec->same_energy
+                 ? bike_speed_of_equal_energy(&start.speed, &point->model, &start, start.speed)
+                 : BIKE_OK;
+  if (code) {
+    fail(row, SWEEP_OUTCOME, code);
+    return;
+  }
+  all->rows[all->count] = row;
+  all->members[all->count++] = (bike_member){
+      .model = &point->model, .start = start, .input = {.rider_offset = point->rider_offset}};
+}
+
+static void ride_all(rides *all, const sweep_spec *spec) {
+  bike_fate fates[SWEEP_MOST_ROWS];
+  double times[SWEEP_MOST_ROWS];
+  int codes[SWEEP_MOST_ROWS];
+  bike_basin_def def = bike_default_basin_def();
+  def.duration = spec->ride_time;
+  def.settled = spec->settled;
+  const int failed = bike_fates_of_starts(fates, times, codes, all->members, all->count, &def);
+  for (size_t i = 0; i < all->count; i++) {
+    sweep_row *row = all->rows[i];
+    int code = failed ? failed : codes[i];
+    if (!code && fates[i] == BIKE_FATE_NO_START) code = BIKE_ERROR_GEOMETRY;
+    if (code) {
+      fail(row, SWEEP_OUTCOME, code);
+      continue;
+    }
+    row->outcome = outcome_of(fates[i]);
+    row->numbers[SWEEP_TIME] = times[i];
+  }
+}
+
+static bool asks_for_rides(const sweep_spec *spec) {
+  for (int i = 0; i < spec->output_count; i++)
+    if (question_of(spec->outputs[i]) == SWEEP_OUTCOME) return true;
+  return false;
+}
+
 void sweep_evaluate(sweep_row *rows, const sweep_spec *spec, long first, long count) {
-  for (long i = 0; i < count; i++) evaluate_point(&rows[i], spec, first + i);
+  sweep_point points[SWEEP_MOST_ROWS];
+  rides all = {0};
+  for (long i = 0; i < count; i++) {
+    sweep_point_at(&points[i], spec, first + i);
+    rows[i].index = first + i;
+    evaluate_point(&rows[i], &points[i], spec);
+    if (asks_for_rides(spec) && !rows[i].error[0]) add_ride(&all, &rows[i], &points[i], spec);
+  }
+  ride_all(&all, spec);
 }

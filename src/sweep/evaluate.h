@@ -25,7 +25,7 @@ enum { SWEEP_MOST_ROWS = 64 }; // in one call
 typedef void sweep_evaluate_function(sweep_row *rows, const sweep_spec *spec, long first,
                                      long count);
 
-// One point after the other.
+// Rides go side by side in the lanes of an ensemble.
 sweep_evaluate_function sweep_evaluate;
 
 #endif

@@ -20,7 +20,7 @@ static crowd all;
 
 static void add(const bike_model *model, bike_state start, bike_input input) {
   assert_true(all.count < MOST);
-  all.members[all.count++] = (bike_member){model, start, input};
+  all.members[all.count++] = (bike_member){.model = model, .start = start, .input = input};
 }
 
 static void begin(void) {

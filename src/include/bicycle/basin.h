@@ -8,7 +8,7 @@
 #ifndef BICYCLE_BASIN_H
 #define BICYCLE_BASIN_H
 
-#include <bicycle/state.h>
+#include <bicycle/ensemble.h>
 #include <stddef.h>
 
 typedef enum bike_fate {
@@ -55,5 +55,12 @@ BIKE_API int bike_fate_of(bike_fate *out, double *time, const bike_model *model,
 BIKE_API int bike_fate_of_start(bike_fate *out, double *time, const bike_model *model,
                                 const bike_basin_def *def, const bike_state *start,
                                 double rider_offset);
+
+// The same for many, ridden together: codes[i] is the error of member i, 0 otherwise; `times` may
+// be NULL; `threads` and `progress` are used too. Of a member's input only the rider's offset may
+// differ from zero; `circles` is not read. Each result depends on its member alone.
+BIKE_API int bike_fates_of_starts(bike_fate *out, double *times, int *codes,
+                                  const bike_member *members, size_t count,
+                                  const bike_basin_def *def);
 
 #endif

@@ -15,14 +15,15 @@ typedef struct bike_member {
   const bike_model *model;
   bike_state start;
   bike_input input;
+  bool circles; // may settle to a circle: its rates alone must be small
 } bike_member;
 
 typedef enum bike_outcome {
   BIKE_OUTCOME_COMPLETE,   // still rides when the time is over
   BIKE_OUTCOME_SETTLED,    // rides straight
   BIKE_OUTCOME_LEAN_LIMIT, // has fallen
-  BIKE_OUTCOME_VALIDITY,   // the model ends, as of bike_ride, but beyond some 150 deg of steer, where
-                           // lanes may find the rear angle a little longer
+  BIKE_OUTCOME_VALIDITY, // the model ends, as of bike_ride, but beyond some 150 deg of steer, where
+                         // lanes may find the rear angle a little longer
   BIKE_OUTCOME_STANDSTILL, // the speed crosses zero
   BIKE_OUTCOME_ERROR,      // see `error`
   BIKE_OUTCOMES
@@ -46,10 +47,14 @@ typedef struct bike_ensemble_def {
   double lean_limit; // rad  0 < limit <= pi/2
   double settled;    // rad  a ride is straight once lean, steer and their rates (rad/s) have stayed
                      //      below this for a second; 0: never
-  bool watch_lift;   //
-  bool plain;        //      one after the other by bike_ride, for checks: the same within the
-                     //      tolerances
-  int threads;       //      >= 1
+  // Whether a motion to which a member has settled ends its ride; NULL: always. If not, the second
+  // begins anew. Called from any of the threads.
+  bool (*judge)(const bike_member *member, const bike_state *state, void *user);
+  void *judge_user;
+  bool watch_lift; //
+  bool plain;      //      one after the other by bike_ride, for checks: the same within the
+                   //      tolerances
+  int threads;     //      >= 1
   void (*progress)(double done, void *user); // may be NULL; called by the calling thread alone,
                                              //      with rising numbers, 1 at the end
   void *user;
