@@ -77,7 +77,9 @@ int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
                       .tilt = upright.tilt,
                       .s_tilt = axes.s,
                       .c_tilt = axes.c,
-                      .tilt_gain = upright.trail * axes.c / upright.wheelbase};
+                      .tilt_gain = upright.trail * axes.c / upright.wheelbase,
+                      .over_R_r = 1 / bicycle->geometry.R_r,
+                      .over_R_f = 1 / bicycle->geometry.R_f};
   model.reach = reach_of(&bicycle->geometry);
   lump(&model.rear, bicycle, &axes, false);
   lump(&model.front, bicycle, &axes, true);

@@ -21,6 +21,7 @@ typedef struct kernel_model {
   kernel_geometry geometry;
   real gravity, steer_damping;
   real s_tilt, c_tilt, tilt_gain;
+  real over_R_r, over_R_f;
   kernel_body rear, front;
   real rider_mass;
   real rider_place[3];
@@ -42,6 +43,8 @@ static inline void kernel_model_of(kernel_model *out, const bike_model *m) {
   out->s_tilt = real_of(m->s_tilt);
   out->c_tilt = real_of(m->c_tilt);
   out->tilt_gain = real_of(m->tilt_gain);
+  out->over_R_r = real_of(m->over_R_r);
+  out->over_R_f = real_of(m->over_R_f);
   kernel_body_of(&out->rear, &m->rear);
   kernel_body_of(&out->front, &m->front);
   out->rider_mass = real_of(m->rider_mass);

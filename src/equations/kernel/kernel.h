@@ -29,9 +29,9 @@ typedef struct instant {
 // What follows from a position, which `locate` has put into out->at.
 static inline void solve_located(instant *out, const kernel_model *m, form u, const load *in) {
   const kernel_geometry *L = &m->geometry;
-  rate_forms_of(&out->forms, &out->at, L);
+  rate_forms_of(&out->forms, &out->at, m);
   rates_at(&out->rate, &out->forms, &out->at, L, u);
-  bias_of(&out->rest, &out->at, L, &out->rate);
+  bias_of(&out->rest, &out->at, m, &out->rate);
   kane *k = &out->k;
   inertia G;
   place_masses(&k->body, m, &out->at, in->w);

@@ -37,7 +37,8 @@ typedef struct bias {
   real br, phit, yaw, spin_r, spin_f;
 } bias;
 
-static inline void rate_forms_of(rate_forms *f, const position *g, const kernel_geometry *L) {
+static inline void rate_forms_of(rate_forms *f, const position *g, const kernel_model *m) {
+  const kernel_geometry *L = &m->geometry;
   real over_c2 = g->over_c_psi * g->over_c_psi;
   real nought = g->Q - g->Q; // a zero of type `real`
   // beta_r' Q = T_f (cos br tan psi phi' + sin phit/cos kap kappa')
@@ -63,9 +64,9 @@ static inline void rate_forms_of(rate_forms *f, const position *g, const kernel_
              e * f->br.kap * g->c_phit - z * bf_kap + ts * f->yaw.kap, g->c_phit + ts * f->yaw.v};
   // (16): -(v/R_r + Omega sin kappa)
   f->spin_r =
-      (form){-f->yaw.phi * g->s_kap, -f->yaw.kap * g->s_kap, -1.0 / L->R_r - f->yaw.v * g->s_kap};
+      (form){-f->yaw.phi * g->s_kap, -f->yaw.kap * g->s_kap, -m->over_R_r - f->yaw.v * g->s_kap};
   // (15): -(v_f/R_f + (Omega + phit') sin psi)
-  real over_R = 1.0 / L->R_f;
+  real over_R = m->over_R_f;
   f->spin_f = (form){-f->v_f.phi * over_R - (f->yaw.phi + f->phit.phi) * g->s_psi,
                      -f->v_f.kap * over_R - (f->yaw.kap + f->phit.kap) * g->s_psi,
                      -f->v_f.v * over_R - f->yaw.v * g->s_psi};
@@ -115,7 +116,8 @@ static inline real projected_steer_bias(const position *g, const rates *q, real 
          2.0 * g->s_psi * over_c_psi * q->psi * q->phit;
 }
 
-static inline void bias_of(bias *b, const position *g, const kernel_geometry *L, const rates *q) {
+static inline void bias_of(bias *b, const position *g, const kernel_model *m, const rates *q) {
+  const kernel_geometry *L = &m->geometry;
   real over_c_br = g->over_c_br, over_c_bf = g->over_c_bf;
   b->br = rear_angle_bias(g, q);
   b->phit = projected_steer_bias(g, q, b->br);
@@ -138,7 +140,7 @@ static inline void bias_of(bias *b, const position *g, const kernel_geometry *L,
   // (16)', (15)'
   b->spin_r = -b->yaw * g->s_kap - q->yaw * g->c_kap * q->u.kap;
   b->spin_f =
-      -v_f2 / L->R_f - (b->yaw + b->phit) * g->s_psi - (q->yaw + q->phit) * g->c_psi * q->psi;
+      -v_f2 * m->over_R_f - (b->yaw + b->phit) * g->s_psi - (q->yaw + q->phit) * g->c_psi * q->psi;
 }
 
 #endif
