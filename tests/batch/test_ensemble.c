@@ -164,6 +164,9 @@ static void other_definitions(void **unused) {
   compare(&def, seen);
   def.duration = 0.01; // one step
   compare(&def, seen);
+  def.duration = 2; // down to lying flat, where the equations end
+  def.lean_limit = M_PI / 2;
+  compare(&def, seen);
   assert_true(seen[BIKE_OUTCOME_LEAN_LIMIT] > 20 && seen[BIKE_OUTCOME_COMPLETE] > 20);
 }
 

@@ -93,7 +93,9 @@ static void errors_fall_with_the_tolerance(void **unused) {
     double rtol = pow(10, -5 - 2 * k);
     errors[k] = mean_error(&steps[k], members, exact, rtol);
     print_message("rtol %.0e: error 1e%.2f, %ld steps\n", rtol, errors[k], steps[k]);
-    assert_true(errors[k] < log10(rtol) + 1);
+    // riding is stable, so that errors die out: at the end a tenth of what one step may err by;
+    // half of it where the error of the steering rate goes unseen
+    assert_true(errors[k] < log10(rtol) - 0.5);
     if (k == 0) continue;
     assert_near(errors[k - 1] - errors[k], 2, 0.5);
     // 100^(1/8) = 1.78, less where the search for the first steps counts; of order 4: 2.5
