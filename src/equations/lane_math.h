@@ -59,9 +59,9 @@ LANE_INLINE lanes lanes_sqrt(lanes x) {
   return LANES_SQRT(x);
 }
 
-// SLEEF answers for all lanes in another manner, half as fast and with other roundings, where one of
-// them is large or not finite. So that no lane feels another, such a lane is kept from it and gets
-// NaN: no steering turns twice round, and what a lane cannot solve is left to the scalar path.
+// SLEEF answers for all lanes in another manner, half as fast and with other roundings, where one
+// of them is large or not finite. So that no lane feels another, such a lane is kept from it and
+// gets NaN: no steering turns twice round, and what a lane cannot solve is left to the scalar path.
 LANE_INLINE void lanes_sincos(lanes x, lanes *s, lanes *c) {
   lanes_mask usual = x * x < 15.0 * 15.0; // SLEEF's limit
   lanes_pair both = LANES_SINCOS((lanes)((lanes_mask)x & usual));
