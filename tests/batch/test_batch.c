@@ -14,9 +14,10 @@ static double worst; // error in units of DBL_EPSILON times the scale
 
 static void check_one(double got, double want, double scale) {
   // some hundred operations lead to each term, rounded differently by fused multiply-adds and
-  // another sine: 10 units of rounding at worst here, of angles up to 88 deg
+  // another sine: 10 to 20 units of rounding at worst, over many seeds; 37 once of large angles,
+  // where what (13) divides by is a small difference
   worst = fmax(worst, fabs(got - want) / (DBL_EPSILON * scale));
-  assert_near(got, want, 32 * DBL_EPSILON * scale);
+  assert_near(got, want, 128 * DBL_EPSILON * scale);
 }
 
 static void check_close(bike_acceleration got, const bike_model *model, const bike_state *state) {
