@@ -10,25 +10,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { POINTS = 60 };
+enum { POINTS = 60, MORE_POINTS = 720 };
 
-// The undisturbed run.
+// The undisturbed runs; the second takes longer than a process that is killed lives.
 static int enter(void **state) {
   run_enter_group(state);
   sweep_write("rides.yml", SWEEP_RIDES);
   sweep_run(0, "bicycle sweep rides.yml -o whole --threads 1");
+  sweep_run(0, "sed 's/draws: 5/draws: 60/' rides.yml > more.yml");
+  sweep_run(0, "bicycle sweep more.yml -o all_more --threads 1");
   return 0;
 }
 
-static void assert_complete(const char *name) {
+static void assert_complete_as(const char *name, const char *whole, int points) {
   char file[64];
   snprintf(file, sizeof file, "%s.csv", name);
-  sweep_assert_same(file, "whole.csv");
+  sweep_assert_same(file, whole);
   snprintf(file, sizeof file, "%s.log", name);
   assert_int_equal(sweep_merged_count(file, "missing"), 0);
   assert_int_equal(sweep_merged_count(file, "repeated"), 0);
   assert_int_equal(sweep_merged_count(file, "contradictory"), 0);
-  assert_int_equal(sweep_merged_count(file, "present"), POINTS);
+  assert_int_equal(sweep_merged_count(file, "present"), points);
+}
+
+static void assert_complete(const char *name) {
+  assert_complete_as(name, "whole.csv", POINTS);
 }
 
 // Rounds until one ends by itself; `milliseconds` at most to live.
@@ -36,7 +42,7 @@ static int kill_until_done(const char *name, random_source *random, double milli
   for (int kills = 0; kills < 200; kills++) {
     char command[512];
     snprintf(command, sizeof command,
-             "bicycle sweep rides.yml -o %s --threads 2 & p=$!; (sleep %.3f; kill -9 $p) & k=$!; "
+             "bicycle sweep more.yml -o %s --threads 2 & p=$!; (sleep %.3f; kill -9 $p) & k=$!; "
              "wait $p; s=$?; kill $k; exit $s",
              name, random_between(random, 0.2, 1) * milliseconds / 1000);
     run_result result = run_command(command);
@@ -57,7 +63,7 @@ static void killed_at_random(void **state) {
   for (int i = 0; i < 4; i++) {
     sweep_run(0, "rm -f killed.*");
     kills += kill_until_done("killed", &random, 60);
-    assert_complete("killed");
+    assert_complete_as("killed", "all_more.csv", MORE_POINTS);
   }
   print_message("killed %d times\n", kills);
   assert_true(kills >= 4);
@@ -98,8 +104,8 @@ static void signals_leave_a_valid_log(void **state) {
     int number;
   } signals[] = {{"INT", 2}, {"TERM", 15}};
   for (int i = 0; i < 2; i++) {
-    // 600 rides: more than can be done before the signal comes
-    sweep_run(0, "sed 's/draws: 5/draws: 50/' rides.yml > many.yml; rm -f many.log");
+    // 24000 rides: more than can be done before the signal comes
+    sweep_run(0, "sed 's/draws: 5/draws: 2000/' rides.yml > many.yml; rm -f many.log");
     // what a shell runs in the background ignores SIGINT otherwise, and so does the sweep
     char command[256];
     snprintf(command, sizeof command,
