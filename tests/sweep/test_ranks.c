@@ -89,7 +89,7 @@ static void any_rank_may_die(void **state) {
   (void)state;
   need_mpirun();
   // longer rides: there must be something left to do
-  sweep_run(0, "sed -i 's/draws: 5/draws: 40/' rides.yml && bicycle sweep rides.yml -o whole "
+  sweep_run(0, "sed -i 's/draws: 5/draws: 150/' rides.yml && bicycle sweep rides.yml -o whole "
                "--fresh --threads 2");
   a_rank_dies(0);
   a_rank_dies(2);
