@@ -53,7 +53,7 @@ BIKE_API int bike_batch_eigenvalues(bike_eigenvalues *out, int *codes, const bik
 // How many at a time on this machine, and by which instructions: 8 "v4" (x86-64-v4: AVX-512),
 // 4 "v3" (AVX2), 2 "baseline". The environment variable BICYCLE_INSTRUCTIONS asks for a lower one
 // by its name, so that machines that have more compute as those that have less do: the same to the
-// last bit as long as their C libraries do, whose sine and power differ in a thousandth of their
+// last bit as long as their C libraries do, whose sine differs in a thousandth of its
 // last bits between processors with fused multiply-adds and those without. It holds for all of the
 // library and is read once.
 BIKE_API int bike_batch_width(void);
