@@ -27,6 +27,7 @@ typedef struct arguments {
   term_range speeds, leans;              // of figure 2
   term_range inertia, trail;             // of figures 3 and 4; count 0: from the bicycle
   double fastest_inertia, fastest_trail; // m/s  ends of their axes
+  bool fit;                              // nothing is known of where they should end
   int threads;
   bike_convention convention;
 } arguments;
@@ -144,6 +145,7 @@ static int choose_axes(arguments *args, const bike_model *model) {
   int code = bike_upright_critical_speeds(&found, model, 0, fastest);
   if (code) return code;
   double low = 5, high = 7; // a usual bicycle
+  args->fit = found.range_count == 0 && !(args->fastest_inertia > 0 || args->fastest_trail > 0);
   if (found.range_count > 0) {
     low = found.ranges[0][0];
     high = found.ranges[0][1] < fastest ? found.ranges[0][1] : 1.4 * low;
@@ -171,23 +173,30 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
   return code;
 }
 
+#define HELD_INERTIA                                                                               \
+  "the ratio of the wheels\u2019 inertias, masses, diametral inertias (the steering "              \
+  "system\u2019s "                                                                                 \
+  "among them), lengths"
+#define HELD_TRAIL                                                                                 \
+  "head angle, wheelbase, radii, masses; handlebar and fork fixed in space (shaded), or fixed to " \
+  "the steering axis (limits heavy dashed)"
+
 static int add_figure_3(figure_set *set, const arguments *args, term_progress *progress) {
   range_figure wanted = {
-      .name = "fig3",
-      .title = "stable range against the wheels' inertia",
-      .caption =
-          "Figure 3. Self-stability region (shaded) of upright riding as a function of the moment "
-          "of inertia of both wheels; heavy dashed: limits if the rear wheel keeps its own. Held "
-          "fixed: the ratio of the wheels' inertias, masses, diametral inertias (the steering "
-          "system's among them), lengths. Arrows: the bicycle as it is.",
+      .words = {"fig3", "stable range against the wheels\u2019 inertia",
+                "Figure 3. Self-stability region (shaded) of upright riding as a function of the "
+                "moment of inertia of both wheels; heavy dashed: limits if the rear wheel keeps "
+                "its own. Held fixed: " HELD_INERTIA ". Arrows: the bicycle as it is.",
+                HELD_INERTIA},
       .family_column = "rear_wheel_kept",
       .value_column = "front_wheel_inertia",
-      .axis = {"front wheel's moment of inertia", "\u0398", "f", "kg m\u00b2"},
+      .axis = {"front wheel\u2019s moment of inertia", "\u0398", "f", "kg m\u00b2"},
       .factor = 1,
-      .families = {{BIKE_VARY_WHEEL_INERTIA, BIKE_FRONT_IN_SPACE, "limits, both wheels alike"},
-                   {BIKE_VARY_FRONT_WHEEL_INERTIA, BIKE_FRONT_IN_SPACE, "limits, rear wheel kept"}},
+      .families = {{BIKE_VARY_WHEEL_INERTIA, BIKE_FRONT_IN_SPACE, "both wheels alike"},
+                   {BIKE_VARY_FRONT_WHEEL_INERTIA, BIKE_FRONT_IN_SPACE, "rear wheel kept"}},
       .values = args->inertia,
-      .fastest = args->fastest_inertia};
+      .fastest = args->fastest_inertia,
+      .fit = args->fit};
   double now;
   int code = bike_variation_value(&now, set->bicycle, BIKE_VARY_WHEEL_INERTIA);
   if (code == BIKE_ERROR_PARAMETER) {
@@ -201,21 +210,19 @@ static int add_figure_3(figure_set *set, const arguments *args, term_progress *p
 
 static int add_figure_4(figure_set *set, const arguments *args, term_progress *progress) {
   range_figure wanted = {
-      .name = "fig4",
-      .title = "stable range against the trail",
-      .caption =
-          "Figure 4. Self-stability region (shaded) of upright riding as a function of the trail. "
-          "Held fixed: head angle, wheelbase, radii, masses; handlebar and fork fixed in space "
-          "(shaded), or fixed to the steering axis (limits heavy dashed). Arrows: the bicycle as "
-          "it is.",
+      .words = {"fig4", "stable range against the trail",
+                "Figure 4. Self-stability region (shaded) of upright riding as a function of the "
+                "trail. Held fixed: " HELD_TRAIL ". Arrows: the bicycle as it is.",
+                HELD_TRAIL},
       .family_column = "front_on_axis",
       .value_column = "trail",
       .axis = {"trail", "T", "f", "cm"},
       .factor = 100,
-      .families = {{BIKE_VARY_TRAIL, BIKE_FRONT_IN_SPACE, "limits, fork fixed in space"},
-                   {BIKE_VARY_TRAIL, BIKE_FRONT_ON_AXIS, "limits, fork fixed to the axis"}},
+      .families = {{BIKE_VARY_TRAIL, BIKE_FRONT_IN_SPACE, "fork fixed in space"},
+                   {BIKE_VARY_TRAIL, BIKE_FRONT_ON_AXIS, "fork fixed to the axis"}},
       .values = args->trail,
-      .fastest = args->fastest_trail};
+      .fastest = args->fastest_trail,
+      .fit = args->fit};
   double now;
   int code = bike_variation_value(&now, set->bicycle, BIKE_VARY_TRAIL);
   // where the trail is small or negative, the usual trails of bicycles

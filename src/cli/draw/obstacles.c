@@ -88,3 +88,22 @@ double draw_box_cost(const draw_obstacles *obstacles, draw_box box) {
     cost += DRAW_CROSSED_PIXEL_COST * length_inside(obstacles->segments[i], box);
   return cost;
 }
+
+static double distance_to(draw_segment s, draw_point at) {
+  double x = s.b.x - s.a.x, y = s.b.y - s.a.y, square = x * x + y * y;
+  double along = square > 0 ? ((at.x - s.a.x) * x + (at.y - s.a.y) * y) / square : 0;
+  along = fmin(fmax(along, 0), 1);
+  return hypot(s.a.x + along * x - at.x, s.a.y + along * y - at.y);
+}
+
+// Most segments are told to be far by their box.
+bool draw_is_near_line(const draw_obstacles *obstacles, draw_point at, double distance) {
+  for (size_t i = 0; i < obstacles->segment_count; i++) {
+    draw_segment s = obstacles->segments[i];
+    if (fmin(s.a.x, s.b.x) - at.x > distance || at.x - fmax(s.a.x, s.b.x) > distance ||
+        fmin(s.a.y, s.b.y) - at.y > distance || at.y - fmax(s.a.y, s.b.y) > distance)
+      continue;
+    if (distance_to(s, at) < distance) return true;
+  }
+  return false;
+}

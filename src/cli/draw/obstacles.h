@@ -37,6 +37,9 @@ enum { DRAW_CROSSED_PIXEL_COST = 4 }; // of each pixel of a line within a box
 // How badly a box would sit: the lines that cross it count, and, much more, covered boxes.
 double draw_box_cost(const draw_obstacles *obstacles, draw_box box);
 
+// Whether a line passes a point at less than a distance.
+bool draw_is_near_line(const draw_obstacles *obstacles, draw_point at, double distance);
+
 draw_point draw_along(draw_point from, draw_point direction, double distance);
 double draw_distance(draw_point a, draw_point b);
 

@@ -110,22 +110,38 @@ bool contour_trace(const contour_grid *grid, double level, contour_piece *piece,
   return room;
 }
 
+// The part of a cell below the level; returns the number of corners, which may be none.
+static int clip_cell(plot_point polygon[8], const contour_grid *g, int i, int j, double level) {
+  double v[4];
+  if (!cell_values(v, g, i, j)) return 0;
+  const plot_point corner[4] = {node(g, i, j), node(g, i + 1, j), node(g, i + 1, j + 1),
+                                node(g, i, j + 1)};
+  int count = 0;
+  for (int k = 0; k < 4; k++) {
+    int next = (k + 1) % 4;
+    if (v[k] < level) polygon[count++] = corner[k];
+    if ((v[k] < level) != (v[next] < level))
+      polygon[count++] = between(corner[k], corner[next], v[k], v[next], level);
+  }
+  return count;
+}
+
+static bool is_full(const contour_grid *g, int i, int j, double level) {
+  double v[4];
+  return cell_values(v, g, i, j) && v[0] < level && v[1] < level && v[2] < level && v[3] < level;
+}
+
+// Cells that lie wholly below are joined along their row: most of the region is such cells.
 void contour_below(const contour_grid *g, double level, contour_piece *piece, void *user) {
   for (int j = 0; j + 1 < g->ny; j++) {
-    for (int i = 0; i + 1 < g->nx; i++) {
-      double v[4];
-      const plot_point corner[4] = {node(g, i, j), node(g, i + 1, j), node(g, i + 1, j + 1),
-                                    node(g, i, j + 1)};
-      if (!cell_values(v, g, i, j)) continue;
-      plot_point polygon[8];
-      int count = 0;
-      for (int k = 0; k < 4; k++) {
-        int next = (k + 1) % 4;
-        if (v[k] < level) polygon[count++] = corner[k];
-        if ((v[k] < level) != (v[next] < level))
-          polygon[count++] = between(corner[k], corner[next], v[k], v[next], level);
-      }
+    for (int i = 0, next; i + 1 < g->nx; i = next) {
+      next = i;
+      while (next + 1 < g->nx && is_full(g, next, j, level)) next++;
+      plot_point polygon[8] = {node(g, i, j), node(g, next, j), node(g, next, j + 1),
+                               node(g, i, j + 1)};
+      int count = next > i ? 4 : clip_cell(polygon, g, i, j, level);
       if (count >= 3) piece(polygon, count, user);
+      if (next == i) next++;
     }
   }
 }

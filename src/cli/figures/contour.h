@@ -19,7 +19,8 @@ typedef void contour_piece(const plot_point *points, int count, void *user);
 // memory.
 bool contour_trace(const contour_grid *grid, double level, contour_piece *piece, void *user);
 
-// Called for each polygon (3 to 6 corners) of the region where the function is below the level.
+// Called for each polygon (3 to 6 corners) of the region where the function is below the level;
+// together they cover it.
 void contour_below(const contour_grid *grid, double level, contour_piece *piece, void *user);
 
 #endif

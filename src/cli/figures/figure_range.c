@@ -83,9 +83,12 @@ static void draw_curves(plot *p, const range_figure *what, const range_curve cur
 }
 
 static void draw_key(plot *p, const range_figure *what) {
+  char limits[2][64];
+  for (int k = 0; k < 2; k++)
+    snprintf(limits[k], sizeof limits[k], "limits, %s", what->families[k].label);
   const plot_entry key[] = {{true, PLOT_THIN, PLOT_LIGHT, "self-stable"},
-                            {false, PLOT_HEAVY, PLOT_LIGHT, what->families[0].label},
-                            {false, PLOT_HEAVY_DASHED, PLOT_LIGHT, what->families[1].label}};
+                            {false, PLOT_HEAVY, PLOT_LIGHT, limits[0]},
+                            {false, PLOT_HEAVY_DASHED, PLOT_LIGHT, limits[1]}};
   plot_key(p, key, 3);
 }
 
@@ -128,25 +131,63 @@ static int make_curves(range_curve curves[2], const range_figure *what, const bi
     const range_family *f = &what->families[k];
     code = range_curve_make(&curves[k], bicycle, f->variation, f->hold, &what->values,
                             search_beyond * what->fastest);
-    term_progress_show(progress, what->name, 0.5 * (k + 1));
+    term_progress_show(progress, what->words.name, 0.5 * (k + 1));
   }
   return code;
+}
+
+static double fastest_limit(const range_curve curves[2], double search_end) {
+  double most = 0;
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < curves[k].count; i++)
+      for (int r = 0; r < curves[k].samples[i].count; r++)
+        for (int end = 0; end < 2; end++) {
+          double limit = curves[k].samples[i].ranges[r][end];
+          if (limit < search_end) most = fmax(most, limit);
+        }
+  return most;
+}
+
+// The end of the axis of speed.
+static double axis_end(const range_figure *what, const range_curve curves[2]) {
+  double most = what->fit ? fastest_limit(curves, search_beyond * what->fastest) : 0;
+  return most > 0 ? fmin(what->fastest, ceil(1.4 * most)) : what->fastest;
+}
+
+static bool is_never_stable(const range_curve *curve) {
+  for (int i = 0; i < curve->count; i++)
+    if (curve->samples[i].count > 0) return false;
+  return true;
+}
+
+// The figure with its table. False when out of memory.
+static bool finish(figure_set *set, const range_figure *what, const range_curve curves[2],
+                   plot *p) {
+  char caption[640];
+  figure_words words = what->words;
+  int length = snprintf(caption, sizeof caption, "%s", words.caption);
+  for (int k = 0; k < 2; k++)
+    if (is_never_stable(&curves[k]))
+      length += snprintf(caption + length, sizeof caption - (size_t)length, " Never stable: %s.",
+                         what->families[k].label);
+  words.caption = caption;
+  FILE *csv = figure_add(set, &words, p);
+  if (csv) write_table(csv, what, curves);
+  return csv && fclose(csv) == 0;
 }
 
 int figure_add_range(figure_set *set, const range_figure *what, term_progress *progress) {
   range_curve curves[2] = {{0}, {0}};
   plot p = {0};
-  plot_axis x = {what->factor * what->values.first, what->factor * what->values.last, what->axis};
-  plot_axis y = {0, what->fastest, {"speed", "v", "", "m/s"}};
   int code = make_curves(curves, what, set->bicycle, progress);
+  plot_axis x = {what->factor * what->values.first, what->factor * what->values.last, what->axis};
+  plot_axis y = {0, axis_end(what, curves), {"speed", "v", "", "m/s"}};
   if (!code && !plot_open(&p, &x, &y)) code = BIKE_ERROR_MEMORY;
   if (!code) {
     draw_curves(&p, what, curves);
     draw_present(&p, what, set->bicycle);
     draw_key(&p, what);
-    FILE *csv = figure_add(set, what->name, what->title, &p, what->caption);
-    if (csv) write_table(csv, what, curves);
-    if (!csv || fclose(csv) != 0) code = BIKE_ERROR_MEMORY;
+    if (!finish(set, what, curves, &p)) code = BIKE_ERROR_MEMORY;
   }
   plot_close(&p);
   for (int k = 0; k < 2; k++) range_curve_free(&curves[k]);

@@ -13,17 +13,18 @@
 typedef struct range_family {
   bike_variation variation;
   bike_front_hold hold;
-  const char *label; // in the key
+  const char *label; // in the key, after "limits, "
 } range_family;
 
 typedef struct range_figure {
-  const char *name, *title, *caption;
+  figure_words words;
   const char *family_column, *value_column; // of the table; families are numbered 0, 1
   plot_title axis;
   double factor; // from SI to the unit of the axis
   range_family families[2];
   term_range values; // SI
   double fastest;    // m/s  end of the axis of speed
+  bool fit;          // end the axis above the fastest limit instead, if that is slower
 } range_figure;
 
 // Adds the figure. Errors: those of bike_variation_value, MEMORY.

@@ -13,15 +13,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
-FILE *figure_add(figure_set *set, const char *name, const char *title, plot *p,
-                 const char *caption) {
+FILE *figure_add(figure_set *set, const figure_words *words, plot *p) {
   if (set->count == MAX_FIGURES) return NULL;
   figure *f = &set->figures[set->count];
-  *f = (figure){.name = name};
-  snprintf(f->title, sizeof f->title, "%s: %s", set->bicycle->name, title);
+  *f = (figure){.name = words->name, .held = words->held, .x = p->x, .y = p->y};
+  snprintf(f->title, sizeof f->title, "%s: %s", set->bicycle->name, words->title);
   FILE *svg = open_memstream(&f->svg, &f->svg_size);
   if (!svg) return NULL;
-  bool drawn = plot_write(p, name, f->title, caption, svg);
+  bool drawn = plot_write(p, words->name, f->title, words->caption, svg);
   set->count++; // from here on freed with the set
   if (fclose(svg) != 0 || !drawn) return NULL;
   return open_memstream(&f->csv, &f->csv_size);

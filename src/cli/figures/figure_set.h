@@ -9,8 +9,14 @@
 
 #include <bicycle/bicycle.h>
 
+// Static texts. `held` says what is held fixed along the axes.
+typedef struct figure_words {
+  const char *name, *title, *caption, *held; // name: of its files, without their ends
+} figure_words;
+
 typedef struct figure {
-  const char *name; // file name without its end, static
+  const char *name, *held;
+  plot_axis x, y;
   char title[160];
   char *svg, *csv;
   size_t svg_size, csv_size;
@@ -25,10 +31,9 @@ typedef struct figure_set {
   char note[256]; // what could not be drawn, and why; may be empty
 } figure_set;
 
-// Adds a picture; draws `p` with the caption. Returns where its table goes: write it and close it.
-// NULL when out of memory. The figure's title is "NAME: title".
-FILE *figure_add(figure_set *set, const char *name, const char *title, plot *p,
-                 const char *caption);
+// Adds a picture; draws `p` with the caption, which need not outlive the call. Returns where its
+// table goes: write it and close it. NULL when out of memory. The title is "BICYCLE: title".
+FILE *figure_add(figure_set *set, const figure_words *words, plot *p);
 
 // Makes the folder if need be, and writes NAME.svg, NAME.csv of every figure and index.html. Each
 // file appears whole or not at all. On failure one line is printed.

@@ -12,10 +12,24 @@ static double *room_for(size_t count) {
   return values;
 }
 
+static long finer(long count, int stride) {
+  return (count - 1) * stride + 1;
+}
+
+// A point of the finer grid; those asked for come out to the last digit.
+static double point_of(const term_range *range, long i, int stride) {
+  double at = term_range_point(range, i / stride);
+  if (i % stride == 0) return at;
+  return at + (double)(i % stride) / stride * (term_range_point(range, i / stride + 1) - at);
+}
+
 static bool allocate(turn_map *map, const term_range *speeds, const term_range *leans) {
-  size_t nx = (size_t)speeds->count, ny = (size_t)leans->count;
+  const int enough = 400; // nodes along an axis: more than a node for two pixels
+  int stride = speeds->count > enough || leans->count > enough ? 1 : 2;
+  size_t nx = (size_t)finer(speeds->count, stride), ny = (size_t)finer(leans->count, stride);
   *map = (turn_map){.nx = (int)nx,
                     .ny = (int)ny,
+                    .stride = stride,
                     .speed = room_for(nx),
                     .lean = room_for(ny),
                     .steer = room_for(nx * ny),
@@ -24,8 +38,8 @@ static bool allocate(turn_map *map, const term_range *speeds, const term_range *
                     .torn = calloc(nx * ny, sizeof *map->torn)};
   if (!map->speed || !map->lean || !map->steer || !map->rider_offset || !map->eps || !map->torn)
     return false;
-  for (size_t i = 0; i < nx; i++) map->speed[i] = term_range_point(speeds, (long)i);
-  for (size_t j = 0; j < ny; j++) map->lean[j] = term_range_point(leans, (long)j);
+  for (size_t i = 0; i < nx; i++) map->speed[i] = point_of(speeds, (long)i, stride);
+  for (size_t j = 0; j < ny; j++) map->lean[j] = point_of(leans, (long)j, stride);
   return true;
 }
 
@@ -50,9 +64,10 @@ static void show(double done, void *user) {
 
 int turn_map_make(turn_map *out, const bike_model *model, const term_range *speeds,
                   const term_range *leans, int threads, term_progress *progress) {
-  size_t count = (size_t)speeds->count * (size_t)leans->count;
+  bool room = allocate(out, speeds, leans);
+  size_t count = (size_t)out->nx * (size_t)out->ny;
   bike_map_node *nodes = calloc(count, sizeof *nodes);
-  int code = allocate(out, speeds, leans) && nodes ? BIKE_OK : BIKE_ERROR_MEMORY;
+  int code = room && nodes ? BIKE_OK : BIKE_ERROR_MEMORY;
   bike_map_def def = {.speeds = out->speed,
                       .leans = out->lean,
                       .speed_count = (size_t)out->nx,

@@ -8,10 +8,14 @@
 
 #include <bicycle/model.h>
 
+// Pictures need a finer grid than tables: eps_max has a crease, across which contours run along
+// nodes like stairs.
+//
 // Arrays of nx speeds times ny leans, [j * nx + i] at (speed[i], lean[j]); NaN where there is no
 // such motion.
 typedef struct turn_map {
   int nx, ny;
+  int stride;                         // every so many nodes is one of those asked for
   double *speed, *lean;               // m/s, rad
   double *steer, *rider_offset, *eps; // rad, m, 1/s
   bool *torn; // between this node and those right of and above it the motion jumps to another one

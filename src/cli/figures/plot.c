@@ -3,6 +3,7 @@
 
 #include "../draw/escape.h"
 #include "plot_frame.h"
+#include "track.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +17,6 @@ static const char style_sheet[] =
     ".frame { fill: none; stroke: #000; stroke-width: 1.1; }\n"
     ".thin, .dashed, .dotted, .heavy, .heavy-dashed { fill: none; stroke: #000;\n"
     "  stroke-width: 1.1; stroke-linejoin: round; }\n"
-    ".dashed { stroke-dasharray: 7 4; }\n"
     ".dotted { stroke-dasharray: 1.5 3.5; stroke-linecap: round; }\n"
     ".heavy, .heavy-dashed { stroke-width: 2.2; }\n"
     ".heavy-dashed { stroke-dasharray: 9 5; }\n"
@@ -82,7 +82,8 @@ bool plot_write(plot *p, const char *id, const char *title, const char *caption,
           "viewBox=\"0 0 %d %.0f\" role=\"img\">\n<title>",
           PLOT_WIDTH, height, PLOT_WIDTH, height);
   draw_put_escaped(stream, title);
-  fprintf(stream, "</title>\n<style>\n%s</style>\n", style_sheet);
+  fprintf(stream, "</title>\n<style>\n%s.dashed { stroke-dasharray: %d %d; }\n</style>\n",
+          style_sheet, PLOT_DASH, PLOT_DASH_SPACE);
   put_definitions(p, id, stream);
   fprintf(stream, "<rect width=\"%d\" height=\"%.0f\" fill=\"#fff\"/>\n", PLOT_WIDTH, height);
   fprintf(stream, "<g clip-path=\"url(#%s-frame)\">\n%s<g mask=\"url(#%s-gaps)\">\n%s</g></g>\n",
@@ -117,9 +118,41 @@ static void put_path(const plot *p, FILE *out, const char *style, const plot_poi
 void plot_line(plot *p, plot_style style, const plot_point *points, int count) {
   if (count < 2) return;
   put_path(p, p->lines, style_names[style], points, count, false);
+  plot_reserve_line(p, points, count);
+}
+
+void plot_reserve_line(plot *p, const plot_point *points, int count) {
   for (int i = 1; i < count; i++)
     if (plot_inside(p, points[i]) || plot_inside(p, points[i - 1]))
       draw_add_segment(&p->obstacles, plot_pixel(p, points[i - 1]), plot_pixel(p, points[i]));
+}
+
+// The part of a curve between two lengths.
+static void put_part(plot *p, plot_style style, const track *t, double from, double to) {
+  if (!(to > from)) return;
+  draw_point a = track_point(t, from), b = track_point(t, to);
+  fprintf(p->lines, "<path class=\"%s\" d=\"M%.2f %.2f", style_names[style], a.x, a.y);
+  for (int i = 0; i < t->count; i++)
+    if (t->length[i] > from && t->length[i] < to)
+      fprintf(p->lines, "L%.2f %.2f", t->at[i].x, t->at[i].y);
+  fprintf(p->lines, "L%.2f %.2f\"/>\n", b.x, b.y);
+}
+
+void plot_interrupted_line(plot *p, plot_style style, const plot_point *points, int count,
+                           const plot_gaps *gaps) {
+  track t;
+  if (count < 2) return;
+  if (track_make(&t, p, points, count)) {
+    double from = 0;
+    for (int i = 0; i < gaps->count; i++) {
+      put_part(p, style, &t, from, gaps->at[i] - 0.5 * gaps->width);
+      from = gaps->at[i] + 0.5 * gaps->width;
+    }
+    put_part(p, style, &t, from, track_total(&t));
+  } else {
+    p->obstacles.lost = true;
+  }
+  track_free(&t);
 }
 
 void plot_area(plot *p, plot_fill fill, const plot_point *points, int count) {

@@ -41,6 +41,8 @@ typedef enum plot_fill {
   PLOT_FILLS
 } plot_fill;
 
+enum { PLOT_DASH = 7, PLOT_DASH_SPACE = 4 }; // pixels, of PLOT_DASHED
+
 enum { PLOT_LAYERS = 4 };
 
 typedef struct plot {
@@ -56,7 +58,8 @@ bool plot_open(plot *p, const plot_axis *x, const plot_axis *y);
 void plot_close(plot *p);
 
 // Writes the picture: `id` tells it from others of one page, `title` is for those who cannot see
-// it, `caption` stands below the axes, broken into lines. False when it could not be drawn.
+// it, `caption` stands below the axes, broken into lines, {symbols} in italics. False when it could
+// not be drawn.
 bool plot_write(plot *p, const char *id, const char *title, const char *caption, FILE *stream);
 
 // Where a point stands in the picture, pixels.
@@ -67,9 +70,22 @@ bool plot_inside(const plot *p, plot_point at);
 void plot_line(plot *p, plot_style style, const plot_point *points, int count);
 void plot_area(plot *p, plot_fill fill, const plot_point *points, int count);
 
-// Writes a label on a curve where it is least in the way, turned along it, if there is room; on a
-// long curve several times.
-void plot_label_line(plot *p, const char *text, const plot_point *points, int count);
+// Where labels interrupt a curve: middles, rising, along its length in pixels.
+enum { PLOT_MOST_GAPS = 16 };
+typedef struct plot_gaps {
+  int count;
+  double width, at[PLOT_MOST_GAPS];
+} plot_gaps;
+
+// Curves with labels in three steps, each for all curves: reserve them, so that labels keep off
+// them; label them, where the label is least in the way, turned along the curve, on a long curve
+// several times, and beside the curve where there is no room on it; draw them.
+void plot_reserve_line(plot *p, const plot_point *points, int count);
+// Whether there was room.
+bool plot_label_line(plot_gaps *gaps, plot *p, plot_style style, const char *text,
+                     const plot_point *points, int count);
+void plot_interrupted_line(plot *p, plot_style style, const plot_point *points, int count,
+                           const plot_gaps *gaps);
 
 // Writes a label with its middle at a point.
 void plot_label_at(plot *p, const char *text, plot_point middle);

@@ -109,16 +109,29 @@ static size_t line_length(const char *text) {
   return length;
 }
 
+// Symbols stand in braces and come out in italics.
+static void put_marked(FILE *stream, const char *text, size_t length) {
+  char part[512];
+  for (size_t i = 0; i < length;) {
+    bool symbol = text[i] == '{';
+    size_t start = i + symbol, count = 0;
+    while (start + count < length && text[start + count] != (symbol ? '}' : '{')) count++;
+    snprintf(part, sizeof part, "%.*s", (int)count, text + start);
+    if (symbol) fputs("<tspan class=\"symbol\">", stream);
+    draw_put_escaped(stream, part);
+    if (symbol) fputs("</tspan>", stream);
+    i = start + count + symbol;
+  }
+}
+
 int frame_caption(const char *text, FILE *stream) {
   int lines = 0;
   while (*text) {
     size_t length = line_length(text);
     if (stream) {
-      char line[512];
-      snprintf(line, sizeof line, "%.*s", (int)length, text);
       fprintf(stream, "<text class=\"caption\" x=\"20\" y=\"%d\">",
               FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 30 + lines * CAPTION_LINE);
-      draw_put_escaped(stream, line);
+      put_marked(stream, text, length);
       fputs("</text>\n", stream);
     }
     lines++;

@@ -19,7 +19,7 @@ enum {
 
 void frame_draw(const plot *p, FILE *stream);
 
-// Lines that a caption takes; writes them if `stream` is not NULL.
+// Lines that a caption takes, its {symbols} in italics; writes them if `stream` is not NULL.
 int frame_caption(const char *text, FILE *stream);
 
 // Height of the picture for a number of lines of caption.

@@ -19,8 +19,9 @@ typedef struct range_curve {
   range_sample *samples; // rising values
 } range_curve;
 
-// Samples at the values, and on both sides of every change of the number of ranges, so close that
-// no picture shows a gap. Speeds from 0 to `fastest`. MEMORY, or an error of the bicycle as it is.
+// Samples at the values, between them where a limit is steep, and on both sides of every change of
+// the number of ranges, so close that no picture shows a gap. Speeds from 0 to `fastest`. MEMORY,
+// or an error of the bicycle as it is.
 int range_curve_make(range_curve *out, const bike_bicycle *bicycle, bike_variation variation,
                      bike_front_hold hold, const term_range *values, double fastest);
 void range_curve_free(range_curve *curve);
