@@ -2,6 +2,7 @@
 // bicycle figures: figures 2, 3 and 4 of the paper for any bicycle.
 #include "angle_range.h"
 #include "commands.h"
+#include "figures/figure_list.h"
 #include "figures/figure_map.h"
 #include "figures/figure_range.h"
 #include "terminal/command.h"
@@ -20,7 +21,8 @@ static const char example[] =
 static const char documentation[] =
     "Draws figures 2 (stationary motion over speed and lean), 3 (stable range against the wheels' "
     "inertia) and 4 (against the trail) of Franke, Suhr and Riess (1990) as SVG, with a CSV table "
-    "beside each and a page index.html that holds them. Figure 2 needs a rider.";
+    "beside each and a page index.html that holds them. Figure 2 needs a rider. With --json a list "
+    "of the figures: files, axes, ranges, what is held fixed.";
 
 typedef struct arguments {
   const char *file, *folder;
@@ -29,7 +31,7 @@ typedef struct arguments {
   double fastest_inertia, fastest_trail; // m/s  ends of their axes
   bool fit;                              // nothing is known of where they should end
   int threads;
-  bike_convention convention;
+  term_show show;
 } arguments;
 
 enum {
@@ -39,8 +41,7 @@ enum {
   KEY_TRAIL,
   KEY_FASTEST_INERTIA,
   KEY_FASTEST_TRAIL,
-  KEY_THREADS,
-  KEY_CONVENTION
+  KEY_THREADS
 };
 
 // Grids of figure 2 are held in memory, and two points span an axis.
@@ -69,6 +70,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &args->file;
+    state->child_inputs[1] = &args->show;
     return 0;
   case 'o':
     args->folder = text;
@@ -94,10 +96,6 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case KEY_THREADS:
     args->threads = term_threads_of("--threads", text);
     return 0;
-  case KEY_CONVENTION:
-    if (!term_parse_convention(&args->convention, text))
-      term_usage("--convention: '%s' is neither iso nor sae", text);
-    return 0;
   case ARGP_KEY_END:
     if (!args->folder) term_usage("the folder of the figures is missing: -o DIR");
     return 0;
@@ -118,8 +116,6 @@ static const struct argp_option options[] = {
     {"fastest-trail", KEY_FASTEST_TRAIL, "V", 0,
      "End of figure 4's axis of speed, m/s (from the stable range)", 4},
     {"threads", KEY_THREADS, "N", 0, "Threads (all processors)", 7},
-    {"convention", KEY_CONVENTION, "iso|sae", 0,
-     "Steer left (iso, the default) or right positive (sae)", 8},
     {0},
 };
 
@@ -138,7 +134,7 @@ static double round_up(double x) {
   return 10 * power;
 }
 
-// Axes that were not given are made to show the first stable range and what surrounds it.
+// Axes that were not given are made to show the stable ranges and what surrounds it.
 static int choose_axes(arguments *args, const bike_model *model) {
   const double fastest = 50; // m/s: beyond, no range is of interest
   bike_critical_speeds found;
@@ -147,8 +143,9 @@ static int choose_axes(arguments *args, const bike_model *model) {
   double low = 5, high = 7; // a usual bicycle
   args->fit = found.range_count == 0 && !(args->fastest_inertia > 0 || args->fastest_trail > 0);
   if (found.range_count > 0) {
+    const double *last = found.ranges[found.range_count - 1];
     low = found.ranges[0][0];
-    high = found.ranges[0][1] < fastest ? found.ranges[0][1] : 1.4 * low;
+    high = last[1] < fastest ? last[1] : 1.4 * last[0];
   }
   if (args->speeds.count == 0)
     args->speeds = (term_range){fmax(0.5, 0.5 * round(0.8 * low)), round_up(1.4 * high), SPEEDS};
@@ -163,11 +160,11 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
   if (!(model->rider_mass > 0)) {
     snprintf(set->note, sizeof set->note,
              "Figure 2 is missing: it shows the rider's displacement, and no part of this bicycle "
-             "is the rider.");
+             "is the rider (rider: true in the file).");
     return BIKE_OK;
   }
   int code = turn_map_make(&map, model, &args->speeds, &args->leans, args->threads, progress);
-  if (!code && !figure_add_maps(set, &map, term_left_sign(args->convention)))
+  if (!code && !figure_add_maps(set, &map, term_left_sign(args->show.convention)))
     code = BIKE_ERROR_MEMORY;
   turn_map_free(&map);
   return code;
@@ -201,7 +198,8 @@ static int add_figure_3(figure_set *set, const arguments *args, term_progress *p
   int code = bike_variation_value(&now, set->bicycle, BIKE_VARY_WHEEL_INERTIA);
   if (code == BIKE_ERROR_PARAMETER) {
     snprintf(set->note + strlen(set->note), sizeof set->note - strlen(set->note),
-             " Figure 3 is missing: this bicycle's front wheel has no inertia to vary.");
+             "%sFigure 3 is missing: this bicycle's front wheel has no inertia to vary.",
+             *set->note ? " " : "");
     return BIKE_OK;
   }
   if (!code && wanted.values.count == 0) wanted.values = (term_range){0, 2.5 * now, 201};
@@ -233,7 +231,8 @@ static int add_figure_4(figure_set *set, const arguments *args, term_progress *p
 }
 
 int cmd_figures(int argc, char **argv) {
-  const struct argp_child children[] = {{&term_file_argp, 0, NULL, 0}, {0}};
+  const struct argp_child children[] = {
+      {&term_file_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = defaults();
   term_parse(&argp, example, argc, argv, &args);
@@ -253,7 +252,10 @@ int cmd_figures(int argc, char **argv) {
   code = error ? term_fail_bike(error, args.file) : figure_write_all(&set, args.folder);
   if (code == TERM_DONE)
     term_message("%d figures in %s, convention %s", set.count, args.folder,
-                 term_convention_name(args.convention));
+                 term_convention_name(args.show.convention));
+  if (code == TERM_DONE && args.show.json &&
+      !term_json_write(figure_list_json(&set, args.folder, args.show.convention), stdout))
+    code = term_fail_bike(BIKE_ERROR_MEMORY, args.file);
   figure_set_free(&set);
   return code;
 }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basin_picture.h"
 
-#include "plot.h"
+#include "plot_file.h"
 #include "terminal/data.h"
-#include "terminal/message.h"
 
 #include <bicycle/error.h>
-#include <bicycle/output.h>
 #include <math.h>
-#include <string.h>
 
 static const double DEGREES = 180 / 3.14159265358979323846;
 
@@ -78,57 +75,36 @@ static bool draw(plot *p, const basin_map *map, double left) {
   return true;
 }
 
-static term_exit write_picture(const basin_map *map, const char *title, const char *caption,
-                               double left, const char *path) {
-  plot p;
-  bike_output output;
-  bike_file_error error;
-  bool drawn = draw(&p, map, left);
-  int code = drawn ? bike_output_begin(&output, path, &error) : BIKE_ERROR_MEMORY;
-  if (drawn && code) {
-    plot_close(&p);
-    return term_fail(term_exit_of(code), "%s", error.text);
-  }
-  if (!code) {
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.stream);
-    drawn = plot_write(&p, "basin", title, caption, output.stream);
-    if (drawn)
-      code = bike_output_commit(&output, &error);
-    else
-      bike_output_abort(&output);
-  }
-  plot_close(&p);
-  if (!drawn) return term_fail_bike(BIKE_ERROR_MEMORY, path);
-  return code ? term_fail(term_exit_of(code), "%s", error.text) : TERM_DONE;
-}
+// What the table shows.
+typedef struct basin_table {
+  const basin_map *map;
+  double left;
+} basin_table;
 
-static term_exit write_table(const basin_map *map, double left, const char *path) {
-  bike_output output;
-  bike_file_error error;
-  int code = bike_output_begin(&output, path, &error);
-  if (code) return term_fail(term_exit_of(code), "%s", error.text);
-  fputs("lean,steer,fate\n", output.stream);
+static void write_table(FILE *csv, const void *user) {
+  const basin_table *t = user;
+  const basin_map *map = t->map;
+  fputs("lean,steer,fate\n", csv);
   for (int k = 0; k < map->nx * map->ny; k++)
-    fprintf(output.stream, "%.17g,%.17g,%s\n", map->leans[k % map->nx],
-            left * map->steers[k / map->nx], bike_fate_string(map->fates[k]));
-  code = bike_output_commit(&output, &error);
-  return code ? term_fail(term_exit_of(code), "%s", error.text) : TERM_DONE;
+    fprintf(csv, "%.17g,%.17g,%s\n", map->leans[k % map->nx], t->left * map->steers[k / map->nx],
+            bike_fate_string(map->fates[k]));
 }
 
 term_exit basin_write(const basin_map *map, const bike_bicycle *bicycle, double speed, double time,
                       bike_convention convention, const char *svg) {
-  char title[160], caption[512], csv[TERM_PATH_SIZE];
-  double left = term_left_sign(convention);
-  int stem = (int)strlen(svg) - 4; // without ".svg"
-  if (snprintf(csv, sizeof csv, "%.*s.csv", stem, svg) >= (int)sizeof csv)
-    return term_fail(TERM_USAGE, "%s: path too long", svg);
+  plot p;
+  char title[160], caption[512];
+  const basin_table table = {map, term_left_sign(convention)};
   snprintf(title, sizeof title, "%s: basin of attraction of riding straight at %g m/s",
            bicycle->name, speed);
   snprintf(caption, sizeof caption,
            "%s: basin of attraction of riding straight at %g m/s, hands off. Starts with zero "
            "rates and the energy of riding straight at that speed, followed for %g s; lean right, "
            "steer %s positive.",
-           bicycle->name, speed, time, left > 0 ? "left" : "right");
-  term_exit code = write_picture(map, title, caption, left, svg);
-  return code == TERM_DONE ? write_table(map, left, csv) : code;
+           bicycle->name, speed, time, table.left > 0 ? "left" : "right");
+  term_exit code = draw(&p, map, table.left)
+                       ? plot_save(&p, "basin", title, caption, svg, write_table, &table)
+                       : term_fail_bike(BIKE_ERROR_MEMORY, svg);
+  plot_close(&p);
+  return code;
 }

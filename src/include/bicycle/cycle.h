@@ -41,6 +41,13 @@ typedef struct bike_cycle {
 BIKE_API int bike_cycle_find(bike_cycle *out, const bike_model *model, double lean,
                              double weave_speed, const bike_cycle *near);
 
+// The cycle with the energy of riding straight at `speed`, to 1e-9 m/s, between two of a branch
+// whose speeds it separates: `smaller` (NULL: straight riding at the weave speed) and `larger`, of
+// larger lean. ARGUMENT if it does not separate them; errors of bike_cycle_find.
+BIKE_API int bike_cycle_of_speed(bike_cycle *out, const bike_model *model, double speed,
+                                 double weave_speed, const bike_cycle *smaller,
+                                 const bike_cycle *larger);
+
 typedef struct bike_hopf {
   double speed;         // m/s        the weave speed
   bike_weave_mode mode; //            there
