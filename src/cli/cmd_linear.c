@@ -4,6 +4,7 @@
 #include "terminal/command.h"
 #include "terminal/data.h"
 #include "terminal/json.h"
+#include "terminal/message.h"
 #include "terminal/table.h"
 #include "turn_pick.h"
 
@@ -11,14 +12,17 @@
 #include <bicycle/linear.h>
 
 static const char example[] = "Example: bicycle linear benchmark --speed 5 --json\n"
-                              "         bicycle linear roadster --speed 5.5 --lean 10deg\n";
+                              "         bicycle linear roadster --speed 5.5 --lean 10deg\n"
+                              "         bicycle linear benchmark --lean 10deg --rider-offset 0\n";
 
 static const char documentation[] =
     "M q'' + v C1 q' + (g K0 + v^2 K2) q = f with q = (lean, steer), f = (roll torque, steer "
     "torque), and x' = A x + B u with x = (steer, lean, steer rate, lean rate), u = (steer torque, "
     "roll torque, acceleration of the rider offset), about riding straight and upright at a "
     "constant speed. Steer damping is in A alone. With --lean or --rider-offset A and B are those "
-    "of the stationary turn of that speed, the one nearest to upright where there are several.";
+    "of the stationary turn of that speed, the one nearest to upright where there are several; "
+    "with "
+    "--lean and --rider-offset the speed is the turn's.";
 
 typedef struct arguments {
   term_question question;
@@ -39,10 +43,12 @@ static bool asks_for_turn(const arguments *args) {
 }
 
 static void check(arguments *args) {
-  if (!args->has_speed) term_usage("--speed is missing");
-  if (!asks_for_turn(args)) return;
-  if (args->turn.given[BIKE_TURN_LEAN] && args->turn.given[BIKE_TURN_OFFSET])
-    term_usage("--lean or --rider-offset, not both");
+  const bool *given = args->turn.given;
+  bool both = given[BIKE_TURN_LEAN] && given[BIKE_TURN_OFFSET];
+  if (!args->has_speed && !both) term_usage("--speed is missing");
+  if (args->has_speed && both)
+    term_usage("two of --speed, --lean and --rider-offset make a turn, not three");
+  if (!args->has_speed || !asks_for_turn(args)) return;
   if (args->speed < 0) term_usage("--speed: %g is negative, and a turn is asked for", args->speed);
   give(&args->turn, BIKE_TURN_SPEED, args->speed);
 }
@@ -72,7 +78,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 }
 
 static const struct argp_option options[] = {
-    {"speed", KEY_SPEED, "V", 0, "Speed, m/s (required)", 1},
+    {"speed", KEY_SPEED, "V", 0, "Speed, m/s (required but for a turn of given lean and offset)",
+     1},
     {"lean", KEY_LEAN, "ANGLE", 0, "About the turn with this lean, rad or 5deg", 1},
     {"rider-offset", KEY_RIDER_OFFSET, "W", 0, "About the turn with the rider there, m", 1},
     {0},
@@ -128,8 +135,8 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args,
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name,
       "convention", term_convention_name(args->question.show.convention), "speed",
-      term_json_number(args->speed), "coordinates", term_json_texts(coordinates, Q_COUNT), "M",
-      upright_json(answer, upright->M), "C1", upright_json(answer, upright->C1), "K0",
+      term_json_number(answer->turn.speed), "coordinates", term_json_texts(coordinates, Q_COUNT),
+      "M", upright_json(answer, upright->M), "C1", upright_json(answer, upright->C1), "K0",
       upright_json(answer, upright->K0), "K2", upright_json(answer, upright->K2), "states",
       term_json_texts(states, X_COUNT), "inputs", term_json_texts(inputs, U_COUNT), "A",
       term_json_matrix(answer->linear.A, X_COUNT, X_COUNT), "B",
@@ -172,7 +179,7 @@ static bool print_q(const char *title, const double matrix[4]) {
 static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
                          const linear_answer *answer) {
   const bike_upright_matrices *upright = &answer->upright;
-  printf("%s at %g m/s, convention %s\n", bicycle->name, args->speed,
+  printf("%s at %g m/s, convention %s\n", bicycle->name, answer->turn.speed,
          term_convention_name(args->question.show.convention));
   if (asks_for_turn(args))
     printf("A and B about the turn with lean %.10g rad, steer %.10g rad, rider %.10g m\n",
@@ -201,6 +208,21 @@ static int linearise(linear_answer *out, const bike_model *model, const argument
   return bike_linearize(&out->linear, model, &state, &input);
 }
 
+static term_exit fail(int error, const arguments *args) {
+  const char *file = args->question.file;
+  if (error == BIKE_ERROR_NO_RIDER && args->has_speed && args->turn.given[BIKE_TURN_LEAN])
+    return term_fail(TERM_USAGE,
+                     "%s: no part is the rider, so that the lean decides the speed: give --lean "
+                     "and --rider-offset 0, and no --speed",
+                     file);
+  if (error == BIKE_ERROR_NO_RIDER)
+    return term_fail(TERM_USAGE, "%s: no part is the rider: --rider-offset can only be 0", file);
+  if (error == BIKE_ERROR_NOT_STATIONARY && asks_for_turn(args))
+    return term_fail(TERM_USAGE, "%s: there is no such turn ('bicycle turn' tells which there are)",
+                     file);
+  return term_fail_bike(error, file);
+}
+
 int cmd_linear(int argc, char **argv) {
   const struct argp_child children[] = {{&term_question_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
@@ -214,7 +236,7 @@ int cmd_linear(int argc, char **argv) {
 
   linear_answer answer = {0};
   int error = linearise(&answer, &model, &args);
-  if (error != BIKE_OK) return term_fail_bike(error, args.question.file);
+  if (error != BIKE_OK) return fail(error, &args);
   convert_all(&answer, term_left_sign(args.question.show.convention));
   bool printed = args.question.show.json ? print_json(&bicycle, &args, &answer)
                                          : print_tables(&bicycle, &args, &answer);

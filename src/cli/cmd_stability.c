@@ -8,6 +8,7 @@
 #include "terminal/table.h"
 
 #include <bicycle/error.h>
+#include <bicycle/modes.h>
 #include <bicycle/stability.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +18,10 @@ static const char example[] = "Example: bicycle stability benchmark\n"
 
 static const char documentation[] =
     "Stability of riding straight and upright, rigid rider, hands off: the eigenvalues in 1/s at "
-    "each speed, falling, the weave and capsize speeds, and the ranges of speed in which "
-    "every disturbance dies out.";
+    "each speed, falling, with the names of their modes (weave, capsize, castering; followed from "
+    "the fastest oscillation), the weave and capsize speeds, and the ranges of speed "
+    "in "
+    "which every disturbance dies out.";
 
 typedef struct arguments {
   term_question question;
@@ -60,27 +63,36 @@ static double first_or_nan(const double *speeds, int count) {
   return count > 0 ? speeds[0] : NAN;
 }
 
-static json_t *eigenvalues_json(const term_range *speeds, const bike_eigenvalues *values) {
+// The names in the order of the eigenvalues.
+static json_t *names_json(const bike_modes *at) {
+  const char *names[4];
+  for (int k = 0; k < 4; k++) names[k] = bike_mode_string(at->mode[k]);
+  return term_json_texts(names, 4);
+}
+
+static json_t *eigenvalues_json(const term_range *speeds, const bike_modes *modes) {
   json_t *array = json_array();
   for (long i = 0; i < speeds->count; i++) {
+    const bike_eigenvalues *values = &modes[i].values;
     double pairs[4][2];
     for (int k = 0; k < 4; k++) {
-      pairs[k][0] = values[i].re[k];
-      pairs[k][1] = values[i].im[k];
+      pairs[k][0] = values->re[k];
+      pairs[k][1] = values->im[k];
     }
-    json_array_append_new(array, json_pack("{s:o, s:o}", "speed",
+    json_array_append_new(array, json_pack("{s:o, s:o, s:o}", "speed",
                                            term_json_number(term_range_point(speeds, i)), "values",
-                                           term_json_matrix(pairs[0], 4, 2)));
+                                           term_json_matrix(pairs[0], 4, 2), "modes",
+                                           names_json(&modes[i])));
   }
   return array;
 }
 
-static bool print_json(const bike_bicycle *bicycle, const arguments *args,
-                       const bike_eigenvalues *values, const bike_critical_speeds *critical) {
+static bool print_json(const bike_bicycle *bicycle, const arguments *args, const bike_modes *modes,
+                       const bike_critical_speeds *critical) {
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "bicycle", bicycle->name, "convention",
       term_convention_name(args->question.show.convention), "eigenvalues",
-      eigenvalues_json(&args->speeds, values), "weave_speed",
+      eigenvalues_json(&args->speeds, modes), "weave_speed",
       term_json_number(first_or_nan(critical->weave, critical->weave_count)), "capsize_speed",
       term_json_number(first_or_nan(critical->capsize, critical->capsize_count)), "weave_speeds",
       term_json_numbers(critical->weave, (size_t)critical->weave_count), "capsize_speeds",
@@ -90,23 +102,36 @@ static bool print_json(const bike_bicycle *bicycle, const arguments *args,
   return term_json_write(document, stdout);
 }
 
-static void format_eigenvalue(char out[64], double re, double im) {
-  if (im == 0)
-    snprintf(out, 64, "%.6g", re);
-  else
-    snprintf(out, 64, "%.6g%+.6gi", re, im);
+typedef char cell[64];
+
+static bool is_pair(const bike_eigenvalues *e, int k) {
+  return k + 1 < 4 && e->im[k] > 0 && e->im[k + 1] == -e->im[k] && e->re[k + 1] == e->re[k];
 }
 
-static bool print_eigenvalues(const term_range *speeds, const bike_eigenvalues *values) {
+static void format_mode(cell out, const bike_modes *at, int k) {
+  const bike_eigenvalues *e = &at->values;
+  bool named = at->mode[k] != BIKE_MODE_UNNAMED;
+  const char *name = named ? bike_mode_string(at->mode[k]) : "", *blank = named ? " " : "";
+  if (is_pair(e, k))
+    snprintf(out, sizeof(cell), "%.6g\u00b1%.6gi%s%s", e->re[k], e->im[k], blank, name);
+  else if (e->im[k] != 0)
+    snprintf(out, sizeof(cell), "%.6g%+.6gi%s%s", e->re[k], e->im[k], blank, name);
+  else
+    snprintf(out, sizeof(cell), "%.6g%s%s", e->re[k], blank, name);
+}
+
+// A pair takes one cell.
+static bool print_eigenvalues(const term_range *speeds, const bike_modes *modes) {
   static const term_column columns[] = {{"speed", TERM_RIGHT}, {"eigenvalues", TERM_RIGHT},
                                         {"", TERM_RIGHT},      {"", TERM_RIGHT},
                                         {"", TERM_RIGHT},      {"stable", TERM_LEFT}};
   term_table *table = term_table_create(columns, 6);
   for (long i = 0; i < speeds->count; i++) {
-    char speed[32], text[4][64];
+    cell speed, text[4] = {""};
     snprintf(speed, sizeof speed, "%g", term_range_point(speeds, i));
-    for (int k = 0; k < 4; k++) format_eigenvalue(text[k], values[i].re[k], values[i].im[k]);
-    bool stable = bike_all_decay(&values[i]);
+    for (int k = 0, column = 0; k < 4; k += is_pair(&modes[i].values, k) ? 2 : 1)
+      format_mode(text[column++], &modes[i], k);
+    bool stable = bike_all_decay(&modes[i].values);
     term_table_add(
         table, stable ? TERM_GOOD : TERM_PLAIN,
         (const char *const[]){speed, text[0], text[1], text[2], text[3], stable ? "yes" : "no"});
@@ -123,10 +148,10 @@ static void print_speeds(const char *name, const double *speeds, int count) {
 }
 
 static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
-                         const bike_eigenvalues *values, const bike_critical_speeds *critical) {
+                         const bike_modes *modes, const bike_critical_speeds *critical) {
   printf("%s, riding straight and upright, convention %s\n\n", bicycle->name,
          term_convention_name(args->question.show.convention));
-  bool printed = print_eigenvalues(&args->speeds, values);
+  bool printed = print_eigenvalues(&args->speeds, modes);
   printf("\nbetween %g and %g m/s:\n", args->search[0], args->search[1]);
   print_speeds("weave speed", critical->weave, critical->weave_count);
   print_speeds("capsize speed", critical->capsize, critical->capsize_count);
@@ -137,11 +162,23 @@ static bool print_tables(const bike_bicycle *bicycle, const arguments *args,
   return printed;
 }
 
-static int find_eigenvalues(bike_eigenvalues *out, const bike_model *model,
-                            const term_range *speeds) {
-  int error = BIKE_OK;
-  for (long i = 0; i < speeds->count && error == BIKE_OK; i++)
-    error = bike_upright_eigenvalues(&out[i], model, term_range_point(speeds, i));
+// Modes are named from their fastest oscillation on: it is looked for beyond the list too, up to
+// the end of the search, so that a list of slow speeds gets the same names. `out` has room for
+// that.
+enum { BEYOND = 40 };
+
+static int find_modes(bike_modes *out, const bike_model *model, const arguments *args) {
+  const term_range *speeds = &args->speeds;
+  const long listed = speeds->count;
+  const double gap = args->search[1] - speeds->last;
+  const long count = gap > 0 ? listed + BEYOND : listed;
+  double *at = calloc((size_t)count, sizeof *at);
+  if (!at) return BIKE_ERROR_MEMORY;
+  for (long i = 0; i < listed; i++) at[i] = term_range_point(speeds, i);
+  for (long i = listed; i < count; i++)
+    at[i] = speeds->last + gap * (double)(i - listed + 1) / BEYOND;
+  int error = bike_upright_modes(out, model, at, (int)count);
+  free(at);
   return error;
 }
 
@@ -157,15 +194,15 @@ int cmd_stability(int argc, char **argv) {
   if (code != TERM_DONE) return code;
 
   bike_critical_speeds critical = {0};
-  bike_eigenvalues *values = calloc((size_t)args.speeds.count, sizeof *values);
-  int error = values ? find_eigenvalues(values, &model, &args.speeds) : BIKE_ERROR_MEMORY;
+  bike_modes *modes = calloc((size_t)args.speeds.count + BEYOND, sizeof *modes);
+  int error = modes ? find_modes(modes, &model, &args) : BIKE_ERROR_MEMORY;
   if (error == BIKE_OK)
     error = bike_upright_critical_speeds(&critical, &model, args.search[0], args.search[1]);
   if (error == BIKE_OK) {
-    bool printed = args.question.show.json ? print_json(&bicycle, &args, values, &critical)
-                                           : print_tables(&bicycle, &args, values, &critical);
+    bool printed = args.question.show.json ? print_json(&bicycle, &args, modes, &critical)
+                                           : print_tables(&bicycle, &args, modes, &critical);
     error = printed ? BIKE_OK : BIKE_ERROR_MEMORY;
   }
-  free(values);
+  free(modes);
   return error == BIKE_OK ? TERM_DONE : term_fail_bike(error, args.question.file);
 }

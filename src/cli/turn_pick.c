@@ -5,6 +5,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+// Nearer to upright riding: by the lean, where that is given by the steer.
+static bool is_nearer(const bike_turn *a, const bike_turn *b) {
+  if (fabs(a->lean) != fabs(b->lean)) return fabs(a->lean) < fabs(b->lean);
+  return fabs(a->steer) < fabs(b->steer);
+}
+
 int turn_pick(bike_turn *out, const bike_model *model, const bike_turn_def *def) {
   bike_turns *found = calloc(1, sizeof *found); // large for a stack
   if (!found) return BIKE_ERROR_MEMORY;
@@ -13,7 +19,7 @@ int turn_pick(bike_turn *out, const bike_model *model, const bike_turn_def *def)
   if (error == BIKE_OK) *out = found->turns[0];
   for (int i = 1; error == BIKE_OK && i < found->count; i++) {
     const bike_turn *turn = &found->turns[i];
-    if (turn->main_family == out->main_family && fabs(turn->lean) < fabs(out->lean)) *out = *turn;
+    if (turn->main_family == out->main_family && is_nearer(turn, out)) *out = *turn;
   }
   free(found);
   return error;
