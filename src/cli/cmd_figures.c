@@ -56,6 +56,23 @@ static term_range range_of(const char *option, const char *text, double lowest) 
   return range;
 }
 
+// Beyond, nothing rides; and an axis must be one that can be drawn.
+static const double most_speed = 1000, least_axis = 0.1; // m/s
+
+static term_range speeds_of(const char *text) {
+  term_range range = range_of("--speeds", text, 0);
+  if (range.last > most_speed)
+    term_usage("--speeds: %g m/s is faster than %g m/s", range.last, most_speed);
+  return range;
+}
+
+static double axis_of(const char *option, const char *text) {
+  double end = term_positive_of(option, text);
+  if (end < least_axis || end > most_speed)
+    term_usage("%s: %s m/s is not between %g and %g m/s", option, text, least_axis, most_speed);
+  return end;
+}
+
 static term_range leans_of(const char *text) {
   term_range range;
   if (!cli_parse_angle_range(&range, text) || range.first < 0 || range.last >= M_PI / 2 ||
@@ -76,7 +93,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->folder = text;
     return 0;
   case KEY_SPEEDS:
-    args->speeds = range_of("--speeds", text, 0);
+    args->speeds = speeds_of(text);
     return 0;
   case KEY_LEANS:
     args->leans = leans_of(text);
@@ -88,16 +105,16 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->trail = range_of("--trail", text, -10);
     return 0;
   case KEY_FASTEST_INERTIA:
-    args->fastest_inertia = term_positive_of("--fastest-inertia", text);
+    args->fastest_inertia = axis_of("--fastest-inertia", text);
     return 0;
   case KEY_FASTEST_TRAIL:
-    args->fastest_trail = term_positive_of("--fastest-trail", text);
+    args->fastest_trail = axis_of("--fastest-trail", text);
     return 0;
   case KEY_THREADS:
     args->threads = term_threads_of("--threads", text);
     return 0;
   case ARGP_KEY_END:
-    if (!args->folder) term_usage("the folder of the figures is missing: -o DIR");
+    if (!args->folder || !*args->folder) term_usage("the folder of the figures is missing: -o DIR");
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;

@@ -160,3 +160,28 @@ double run_number(const json_t *object, const char *key) {
   assert_true(json_is_number(value));
   return json_number_value(value);
 }
+
+void run_well(const char *command) {
+  run_result result = run_command(command);
+  if (result.status != 0) fail_msg("%s: %s", command, result.err);
+  run_free(&result);
+}
+
+char *run_read(const char *name) {
+  char path[512], *text = NULL;
+  size_t size = 0;
+  snprintf(path, sizeof path, "%s/%s", run_folder(), name);
+  FILE *file = fopen(path, "r"), *copy = open_memstream(&text, &size);
+  assert_non_null(copy);
+  if (!file) fail_msg("%s is missing", name);
+  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
+  fclose(copy);
+  fclose(file);
+  return text;
+}
+
+int run_occurrences(const char *text, const char *word) {
+  int count = 0;
+  for (; (text = strstr(text, word)); text += strlen(word)) count++;
+  return count;
+}

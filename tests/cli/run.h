@@ -42,6 +42,15 @@ void run_all_wrong(const run_wrong *commands, size_t count);
 // Names in the folder, sorted, each followed by a line feed; free it.
 char *run_list(void);
 
+// Runs a command that must succeed.
+void run_well(const char *command);
+
+// A file of the folder as text, free it; fails the test where it is missing.
+char *run_read(const char *name);
+
+// How often a word occurs in a text.
+int run_occurrences(const char *text, const char *word);
+
 // Runs a command that must succeed and print one JSON document; free it with json_decref.
 json_t *run_json(const char *command);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// figures, effects, cycle and basin as a user runs them: files, tables, numbers, and what is wrong.
+// figures, effects and basin as a user runs them: files, tables, numbers, and what is wrong.
 #include "run.h"
 #include "support/near.h"
 
@@ -11,30 +11,12 @@
 // The roadster's limits, `bicycle stability roadster`.
 static const double WEAVE = 4.947836005005, CAPSIZE = 6.985471303934;
 
-static void run_well(const char *command) {
-  run_result result = run_command(command);
-  if (result.status != 0) fail_msg("%s: %s", command, result.err);
-  run_free(&result);
-}
-
-static char *read_text(const char *name) {
-  char path[512], *text = NULL;
-  size_t size = 0;
-  snprintf(path, sizeof path, "%s/%s", run_folder(), name);
-  FILE *file = fopen(path, "r"), *copy = open_memstream(&text, &size);
-  assert_non_null(file);
-  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
-  fclose(copy);
-  fclose(file);
-  return text;
-}
-
 // Called with each row of numbers of a table.
 typedef void row_function(const double *row, void *user);
 enum { COLUMNS = 4 };
 
 static int each_row(const char *name, const char *header, row_function *function, void *user) {
-  char *text = read_text(name), *at = strchr(text, '\n');
+  char *text = run_read(name), *at = strchr(text, '\n');
   int rows = 0;
   assert_non_null(at);
   assert_int_equal(strncmp(text, header, strlen(header)), 0);
@@ -54,21 +36,16 @@ static int each_row(const char *name, const char *header, row_function *function
   return rows;
 }
 
-static int occurrences(const char *text, const char *word) {
-  int count = 0;
-  for (; (text = strstr(text, word)); text += strlen(word)) count++;
-  return count;
-}
-
 // A picture is whole: closed, without numbers that are none, with at least so many curves.
 static void check_picture(const char *name, int curves) {
-  char *svg = read_text(name);
+  char *svg = run_read(name);
   assert_non_null(strstr(svg, "<title>"));
   assert_null(strstr(svg, "nan"));
   assert_null(strstr(svg, "inf"));
   assert_string_equal(svg + strlen(svg) - strlen("</svg>\n"), "</svg>\n");
-  int found = occurrences(svg, "<path class=\"thin\"") +
-              occurrences(svg, "<path class=\"dashed\"") + occurrences(svg, "<path class=\"heavy");
+  int found = run_occurrences(svg, "<path class=\"thin\"") +
+              run_occurrences(svg, "<path class=\"dashed\"") +
+              run_occurrences(svg, "<path class=\"heavy");
   if (found < curves) fail_msg("%s: %d curves", name, found);
   free(svg);
 }
@@ -78,7 +55,7 @@ static void check_labels(const char *name) {
   enum { ROOM = 256 };
   double x[ROOM], y[ROOM], half[ROOM];
   int count = 0;
-  char *svg = read_text(name);
+  char *svg = run_read(name);
   const char *at = svg;
   while ((at = strstr(at, "<text class=\"on\" text-anchor")) && count < ROOM) {
     at = strstr(at, "translate(");
@@ -109,9 +86,9 @@ static void figures_are_whole(void **state) {
   check_labels("out/fig2a.svg");
   check_labels("out/fig2b.svg");
   check_labels("out/fig2c.svg");
-  char *page = read_text("out/index.html");
-  assert_int_equal(occurrences(page, "<svg "), 6);
-  assert_int_equal(occurrences(page, "</svg>"), 6);
+  char *page = run_read("out/index.html");
+  assert_int_equal(run_occurrences(page, "<svg "), 6);
+  assert_int_equal(run_occurrences(page, "</svg>"), 6);
   free(page);
   run_result result = run_command("ls out | wc -l");
   assert_int_equal(atoi(result.out), 13); // nothing is left of writing
@@ -270,28 +247,6 @@ static void effects_carry_uncertainty(void **state) {
   json_decref(document);
 }
 
-static void cycles_are_listed(void **state) {
-  (void)state;
-  json_t *document = run_json("bicycle cycle roadster --leans 1deg:3deg:3 --json");
-  assert_near(run_number(document, "weave_speed"), WEAVE, 1e-11);
-  assert_true(json_is_true(json_object_get(json_object_get(document, "hopf"), "supercritical")));
-  const json_t *cycles = json_object_get(document, "cycles");
-  assert_int_equal(json_array_size(cycles), 3);
-  double before = 0;
-  for (size_t i = 0; i < 3; i++) {
-    const json_t *cycle = json_array_get(cycles, i);
-    assert_true(run_number(cycle, "distance") < before);
-    assert_true(json_is_true(json_object_get(cycle, "stable")));
-    before = run_number(cycle, "distance");
-  }
-  json_decref(document);
-  // no weave speed is an answer
-  run_result result = run_command("bicycle cycle roadster --search 8:20");
-  assert_int_equal(result.status, 0);
-  assert_non_null(strstr(result.out, "no cycle"));
-  run_free(&result);
-}
-
 static void basin_draws_and_counts(void **state) {
   (void)state;
   json_t *document = run_json("bicycle basin roadster --speed 5.8 --leans -30deg:30deg:5 "
@@ -302,9 +257,31 @@ static void basin_draws_and_counts(void **state) {
   assert_string_equal(json_string_value(json_array_get(middle, 2)), "straight");
   json_decref(document);
   check_picture("basin.svg", 0);
-  char *table = read_text("basin.csv");
-  assert_int_equal(occurrences(table, "\n"), 26);
+  char *table = run_read("basin.csv");
+  assert_int_equal(run_occurrences(table, "\n"), 26);
   free(table);
+}
+
+// A bicycle that is stable nowhere is drawn and described like any other.
+static void no_stable_range_is_an_answer(void **state) {
+  (void)state;
+  static const char *const commands[] = {
+      "bicycle figures roadster_riderless -o nowhere",
+      "bicycle effects roadster_riderless --json",
+      "bicycle effects roadster --search 0:3",
+      "bicycle stability roadster_riderless --search 0:1000",
+      "bicycle cycle roadster_riderless --leans 1deg:2deg:2",
+      "bicycle basin roadster --speed 3 --leans 0:10deg:2 --steers 0:10deg:2",
+  };
+  for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) run_well(commands[i]);
+  // no range is no reason for a picture without curves, and none of a wrong one
+  char *svg = run_read("nowhere/fig4.svg");
+  assert_non_null(strstr(svg, "Never stable:"));
+  free(svg);
+  run_result basin =
+      run_command("bicycle basin roadster --speed 3 --leans 0:10deg:2 --steers 0:10deg:2");
+  assert_non_null(strstr(basin.err, "riding straight at 3 m/s is not stable"));
+  run_free(&basin);
 }
 
 static void wrong_command_lines(void **state) {
@@ -321,19 +298,29 @@ static void wrong_command_lines(void **state) {
       {"bicycle figures roadster -o out2 --inertia 0.2:0.1:20", "--inertia"},
       {"bicycle figures roadster -o out2 --trail 0:0.1", "--trail"},
       {"bicycle figures roadster -o out2 --fastest-trail 0", "--fastest-trail"},
+      {"bicycle figures roadster -o out2 --fastest-trail 1e300", "--fastest-trail: 1e300 m/s"},
+      {"bicycle figures roadster -o out2 --fastest-inertia 1e-300", "--fastest-inertia: 1e-300"},
+      {"bicycle figures roadster -o out2 --speeds 0:1e308:5", "--speeds: 1e+308 m/s"},
+      {"bicycle figures roadster -o out2 --speeds 5:5:5", "--speeds"},
+      {"bicycle figures roadster -o out2 --inertia 0:0:5", "--inertia"},
+      {"bicycle figures roadster -o out2 --trail 0:nan:5", "--trail"},
+      {"bicycle figures roadster -o out2 --leans 3deg:3deg:5", "--leans"},
+      {"bicycle figures roadster -o ''", "-o DIR"},
+      {"bicycle figures roadster -o out2 --convention din", "--convention"},
       {"bicycle figures roadster -o file --speeds 5:6:3", "file"},
       {"bicycle figures roadster -o nosuch/out --speeds 5:6:3", "nosuch/out"},
       {"bicycle effects", "FILE is missing"},
       {"bicycle effects roadster --search 9:3", "--search"},
+      {"bicycle effects roadster --search 3:3", "--search"},
       {"bicycle effects roadster --speed x", "--speed"},
       {"bicycle effects roadster > /dev/full", "No space left"},
-      {"bicycle cycle roadster --leans 0:10deg:3", "--leans"},
-      {"bicycle cycle roadster --leans 10deg:100deg:3", "--leans"},
-      {"bicycle cycle roadster --search 4", "--search"},
       {"bicycle basin roadster", "--speed is missing"},
       {"bicycle basin roadster --speed 0", "--speed"},
       {"bicycle basin roadster --speed 5 --leans 0:1deg:1", "--leans"},
       {"bicycle basin roadster --speed 5 --steers 9deg:1deg:5", "--steers"},
+      {"bicycle basin roadster --speed 5 --leans 9deg:9deg:5", "--leans"},
+      {"bicycle basin roadster --speed -5", "--speed"},
+      {"bicycle basin roadster --speed 1e300 --leans 0:1deg:2 --steers 0:1deg:2", "too large"},
       {"bicycle basin roadster --speed 5 --time 1", "--time"},
       {"bicycle basin roadster --speed 5 --threads 0", "--threads"},
       {"bicycle basin roadster --speed 5 -o basin.png", "-o"},
@@ -356,8 +343,8 @@ int main(void) {
       cmocka_unit_test(a_bicycle_without_rider_has_two_figures),
       cmocka_unit_test(effects_tell_what_is_held),
       cmocka_unit_test(effects_carry_uncertainty),
-      cmocka_unit_test(cycles_are_listed),
       cmocka_unit_test(basin_draws_and_counts),
+      cmocka_unit_test(no_stable_range_is_an_answer),
       cmocka_unit_test(wrong_command_lines),
   };
   return cmocka_run_group_tests(tests, enter, run_leave_group);

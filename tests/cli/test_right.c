@@ -118,7 +118,22 @@ static void stability_of_the_benchmark(void **unused) {
     for (size_t k = 1; k < 4; k++)
       assert_true(entry(one, "values", k, 0) <= entry(one, "values", k - 1, 0));
   }
+  // at 5 m/s, as in figure 3 of Meijaard et al. (2007)
+  static const char *const names[] = {"capsize", "weave", "weave", "castering"};
+  const json_t *modes = json_object_get(json_array_get(all, 5), "modes");
+  for (size_t k = 0; k < 4; k++)
+    assert_string_equal(json_string_value(json_array_get(modes, k)), names[k]);
   json_decref(stability);
+}
+
+// A list without an oscillation takes its names from the speeds beyond.
+static void slow_modes_have_names(void **unused) {
+  (void)unused;
+  run_result table = run_command("bicycle stability benchmark --speeds 0:0.5:3");
+  assert_int_equal(run_occurrences(table.out, " weave"), 6);
+  assert_int_equal(run_occurrences(table.out, " capsize"), 3);
+  assert_int_equal(run_occurrences(table.out, " castering"), 3);
+  run_free(&table);
 }
 
 static void no_critical_speed_is_null(void **unused) {
@@ -351,6 +366,7 @@ int main(void) {
       cmocka_unit_test(sae_turns_what_is_left_positive),
       cmocka_unit_test(linear_matrices_of_the_benchmark),
       cmocka_unit_test(stability_of_the_benchmark),
+      cmocka_unit_test(slow_modes_have_names),
       cmocka_unit_test(no_critical_speed_is_null),
       cmocka_unit_test(ride_writes_rows_at_multiples),
       cmocka_unit_test(ride_includes_its_end),

@@ -71,6 +71,10 @@ static void wrong_questions(void **unused) {
       {"roadster --speed 5 --lean 3deg --steer 1deg", "give two of"},
       {"roadster --speed -1 --lean 3deg", "--speed: -1 is negative"},
       {"roadster --speed 5 --lean 85deg", "--lean: 85 deg is beyond"},
+      {"roadster --speed 1e300 --lean 3deg", "--speed: 1e+300 m/s is beyond"},
+      {"roadster --steer 179deg --speed 5", "--steer: 179 deg is beyond"},
+      {"roadster --rider-offset 5 --speed 5", "--rider-offset: 5 m is beyond"},
+      {"roadster --speed 5 --lean 3deg --steer-torque nan", "--steer-torque: 'nan'"},
       {"roadster --speed nan --lean 3deg", "--speed: 'nan' is not a number"},
       {"benchmark --speed 5 --lean 3deg", "--rider-offset 0"},
       {"nowhere --speed 5 --lean 3deg", "nowhere"}};
@@ -108,6 +112,31 @@ static void linear_about_a_turn(void **unused) {
   run_free(&both);
 }
 
+// Without a rider the lean decides the speed, and the command says so.
+static void linear_without_a_rider(void **unused) {
+  (void)unused;
+  run_result refused = run_command("bicycle linear benchmark --speed 5 --lean 5deg");
+  assert_int_equal(refused.status, 2);
+  assert_non_null(strstr(refused.err, "--rider-offset 0"));
+  run_free(&refused);
+  json_t *linear =
+      run_json("bicycle linear benchmark --lean 0.275829694554 --rider-offset 0 --json");
+  assert_near(run_number(linear, "speed"), 5.773782597692, 1e-10); // the published turn
+  assert_near(run_number(json_object_get(linear, "turn"), "steer"), -5 * M_PI / 180, 1e-10);
+  json_decref(linear);
+  static const char *const wrong[] = {"bicycle linear benchmark --lean 5deg",
+                                      "bicycle linear benchmark --rider-offset 0",
+                                      "bicycle linear benchmark --speed 5 --rider-offset 0.01",
+                                      "bicycle linear roadster --speed 5 --lean 1e9",
+                                      "bicycle linear benchmark --lean 60deg --rider-offset 0.1"};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    run_result result = run_command(wrong[i]);
+    if (result.status != 2) fail_msg("%s: %d", wrong[i], result.status);
+    assert_true(strchr(result.err, '\n') == result.err + strlen(result.err) - 1); // one line
+    run_free(&result);
+  }
+}
+
 static void help_starts_with_an_example(void **unused) {
   (void)unused;
   static const char start[] = "Example: bicycle turn ";
@@ -131,9 +160,10 @@ static int leave(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(three_fixed_points),       cmocka_unit_test(sae_is_the_literature),
-      cmocka_unit_test(no_solution_is_an_answer), cmocka_unit_test(wrong_questions),
-      cmocka_unit_test(linear_about_a_turn),      cmocka_unit_test(help_starts_with_an_example),
+      cmocka_unit_test(three_fixed_points),          cmocka_unit_test(sae_is_the_literature),
+      cmocka_unit_test(no_solution_is_an_answer),    cmocka_unit_test(wrong_questions),
+      cmocka_unit_test(linear_about_a_turn),         cmocka_unit_test(linear_without_a_rider),
+      cmocka_unit_test(help_starts_with_an_example),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }
