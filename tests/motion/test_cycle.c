@@ -212,6 +212,14 @@ static void impossible_questions_are_refused(void **state) {
   assert_int_equal(bike_cycle_find(NULL, &model, 0.1, weave, NULL), BIKE_ERROR_ARGUMENT);
   assert_int_equal(bike_hopf_at(&hopf, &model, -1), BIKE_ERROR_ARGUMENT);
   assert_true(bike_cycle_find(&c, &model, 60 * DEGREE, weave, NULL) != BIKE_OK); // too far
+  bike_cycle larger = cycle_of(&model, 2 * DEGREE);
+  assert_int_equal(bike_cycle_of_speed(&c, &model, weave + 0.01, weave, NULL, &larger),
+                   BIKE_ERROR_ARGUMENT); // the other side
+  assert_int_equal(bike_cycle_of_speed(&c, &model, larger.speed - 0.01, weave, NULL, &larger),
+                   BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_cycle_of_speed(&c, &model, weave, weave, &larger, &larger),
+                   BIKE_ERROR_ARGUMENT);
+  assert_int_equal(bike_cycle_of_speed(&c, &model, weave, weave, NULL, NULL), BIKE_ERROR_ARGUMENT);
   bike_state fast = {.lean = 0.1, .lean_rate = 50};
   assert_int_equal(bike_speed_of_equal_energy(&speed, &model, &fast, 1), BIKE_ERROR_NOT_STATIONARY);
 }
