@@ -13,16 +13,16 @@ set(BICYCLE_KERNEL_FLAGS -ffp-contract=fast -fno-math-errno -fno-trapping-math
   # complex products and quotients without the search for infinities, for the complex step
   $<$<C_COMPILER_ID:GNU>:-fcx-limited-range>
   # vectors pass between static functions only, where the ABI does not matter
-  $<$<C_COMPILER_ID:GNU>:-Wno-psabi>
-  # sanitized kernels run as fast with -O1, and are built in half the time
-  $<$<BOOL:${BICYCLE_SANITIZE}>:-O1>)
+  $<$<C_COMPILER_ID:GNU>:-Wno-psabi>)
 
 # An object library of kernel code, part of the library `bicycle`.
 function(bicycle_kernel_target target)
   target_include_directories(${target} PRIVATE
     ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/include)
   target_link_libraries(${target} PRIVATE bicycle_options)
-  target_compile_options(${target} PRIVATE ${BICYCLE_KERNEL_FLAGS})
+  target_compile_options(${target} PRIVATE ${BICYCLE_KERNEL_FLAGS}
+    # sanitized kernels run as fast with -O1, and are built in half the time
+    $<$<BOOL:${BICYCLE_SANITIZE}>:-O1>)
   if("v4" IN_LIST BICYCLE_LEVELS)
     target_compile_definitions(${target} PRIVATE BICYCLE_X86_64_LEVELS)
   endif()
