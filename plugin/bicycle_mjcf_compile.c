@@ -79,8 +79,7 @@ mjModel *mjcf_compile_scene(const char *scene, const char *model_file, const cha
   if (!vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
   mj_defaultVFS(vfs);
   mjModel *compiled = NULL;
-  if (add_file(vfs, name, scene, error) &&
-      (!model_file || add_file(vfs, model_file, model, error)))
+  if (add_file(vfs, name, scene, error) && (!model_file || add_file(vfs, model_file, model, error)))
     compiled = load_exactly(name, vfs, error);
   mj_deleteVFS(vfs);
   free(vfs);

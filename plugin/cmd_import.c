@@ -13,9 +13,8 @@ static const char example[] = "Example: bicycle mujoco import mine.xml -o mine.y
 
 static const char documentation[] =
     "Reads the bicycle out of a MuJoCo model (.xml or .mjb): two wheels on hinges, a steering "
-    "hinge "
-    "between what they are on, and a root with six freedoms, whatever their names and axes. Writes "
-    "it as a bicycle file, rigid parts lumped. The model must be unsteered at qpos 0.";
+    "hinge between what they are on, and a root with six freedoms, whatever their names and axes. "
+    "Writes it as a bicycle file, rigid parts lumped. The model must be unsteered at qpos 0.";
 
 typedef struct arguments {
   const char *model, *output; // output NULL: the standard output

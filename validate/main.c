@@ -22,8 +22,7 @@ static const char documentation[] =
     "Plays scenarios in two simulators, compares what comes out with the limits of the scenario, "
     "prints the verdict and writes a report. SCENARIO is a file or the name of a shipped one; all "
     "shipped ones without. `list` shows these, `compare` compares two saved reports, `bless` makes "
-    "a "
-    "report the baseline of later runs.\v"
+    "a report the baseline of later runs.\v"
     "Exit status: 0 the simulators agree; 1 they do not, or a metric is worse than the baseline's; "
     "2 wrong usage or input; 3 a run is invalid; 4 the baseline is missing or is of other rides.";
 

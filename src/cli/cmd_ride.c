@@ -14,11 +14,9 @@ static const char example[] = "Example: bicycle ride roadster --speed 6 --lean-r
 
 static const char documentation[] =
     "Rides a bicycle from a given state, hands off or with one of the inputs, and writes the "
-    "motion "
-    "as CSV, one row at every multiple of the sampling time. Wheel lift is reported and does not "
-    "end "
-    "the ride; lying down, standstill and the end of the model's validity do. FILE is a bicycle "
-    "file or the name of a shipped bicycle.";
+    "motion as CSV, one row at every multiple of the sampling time. Wheel lift is reported and "
+    "does not end the ride; lying down, standstill and the end of the model's validity do. FILE is "
+    "a bicycle file or the name of a shipped bicycle.";
 
 typedef struct arguments {
   term_ride_options ride;

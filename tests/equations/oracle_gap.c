@@ -133,7 +133,7 @@ void oracle_gap_judge(const oracle_gap *g, const char *name) {
          "force %.1e energy %.1e power %.1e (23) %.1e\n",
          name, g->states, g->no_geometry, g->acceleration, g->geometry, g->rotation, g->force,
          g->energy, g->power, g->equation_23);
-  // What issue 2 asks; round-off in double leaves at least a factor 10 to each.
+  // What was set beforehand; round-off in double leaves at least a factor 10 to each.
   assert_below(g->acceleration, 1e-11);
   assert_below(g->geometry, 1e-12);
   assert_below(g->rotation, 1e-11);

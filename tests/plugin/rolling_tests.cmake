@@ -26,18 +26,12 @@ add_dependencies(test_rolling_library mujoco_rolling)
 #---------------------------------- threads --------------------------------------------------------
 
 # The library's own sources, built for the thread sanitizer; the address sanitizer excludes it.
-if(NOT BICYCLE_SANITIZE)
-  include(CheckCSourceRuns)
-  set(CMAKE_REQUIRED_FLAGS -fsanitize=thread)
-  check_c_source_runs("int main(void) { return 0; }" ROLLING_THREAD_SANITIZER)
-  unset(CMAKE_REQUIRED_FLAGS)
-endif()
 get_target_property(rolling_files mujoco_rolling_objects SOURCES)
 list(TRANSFORM rolling_files PREPEND ${PROJECT_SOURCE_DIR}/plugin/)
 bike_test(NAME test_rolling_threads SOURCES test_rolling_threads.c ${rolling_files}
   LIBS MuJoCo::MuJoCo ENVIRONMENT ${rolling_examples} TSAN_OPTIONS=halt_on_error=1)
 target_include_directories(test_rolling_threads PRIVATE ${PROJECT_SOURCE_DIR}/plugin)
-if(ROLLING_THREAD_SANITIZER)
+if(BICYCLE_THREAD_SANITIZER)
   target_compile_options(test_rolling_threads PRIVATE -fsanitize=thread -g)
   target_link_options(test_rolling_threads PRIVATE -fsanitize=thread)
 endif()

@@ -10,7 +10,7 @@ foreach(library validate_core mujoco_runner mujoco_rolling_objects)
   list(TRANSFORM files PREPEND ${folder}/)
   list(APPEND suite_sources ${files})
 endforeach()
-if(ROLLING_THREAD_SANITIZER)
+if(BICYCLE_THREAD_SANITIZER)
   bike_test(NAME test_suite SOURCES test_suite.c ${suite_sources} LIBS validate_support
     SUNDIALS::arkode SUNDIALS::cvode TIMEOUT 240 ENVIRONMENT TSAN_OPTIONS=halt_on_error=1)
   get_target_property(definitions validate_core COMPILE_DEFINITIONS)
