@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terminal/folder.h"
 
+#include "terminal/folder_place.h"
 #include "terminal/message.h"
 
 #include <bicycle/error.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <libgen.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,16 +17,6 @@
 
 static term_exit fail(const char *path, int number) {
   return term_fail(TERM_USAGE, "%s: %s", path, strerror(number));
-}
-
-// The path without slashes at its end, symbolic links followed; NULL without memory.
-static char *plain_path(const char *path) {
-  char *real = realpath(path, NULL);
-  if (real) return real;
-  char *copy = strdup(path);
-  size_t length = copy ? strlen(copy) : 0;
-  while (length > 1 && copy[length - 1] == '/') copy[--length] = '\0';
-  return copy;
 }
 
 //---------------------------------- what is there already -----------------------------------------
@@ -57,16 +47,11 @@ static term_exit check_content(const char *path, const term_file *files, int cou
 }
 
 static term_exit check_parent(const char *target) {
-  char *copy = strdup(target);
-  if (!copy) return term_fail_bike(BIKE_ERROR_MEMORY, target);
-  const char *parent = dirname(copy);
-  struct stat status;
-  int number = stat(parent, &status) != 0         ? errno
-               : !S_ISDIR(status.st_mode)         ? ENOTDIR
-               : access(parent, W_OK | X_OK) != 0 ? errno
-                                                  : 0;
+  char *parent = term_place_parent(target);
+  if (!parent) return term_fail_bike(BIKE_ERROR_MEMORY, target);
+  int number = term_place_check_parent(parent);
   term_exit code = number ? fail(parent, number) : TERM_DONE;
-  free(copy);
+  free(parent);
   return code;
 }
 
@@ -81,7 +66,7 @@ static term_exit check(const char *target, const term_file *files, int count) {
 }
 
 term_exit term_folder_check(const char *path, const term_file *files, int count) {
-  char *target = plain_path(path);
+  char *target = term_place_of(path);
   term_exit code = target ? check(target, files, count) : term_fail_bike(BIKE_ERROR_MEMORY, path);
   free(target);
   return code;
@@ -89,21 +74,17 @@ term_exit term_folder_check(const char *path, const term_file *files, int count)
 
 //---------------------------------- writing -------------------------------------------------------
 
-// "PARENT/.NAME.PID.tmp"; NULL without memory.
-static char *path_aside(const char *target, const char *kind) {
-  const char *slash = strrchr(target, '/');
-  int parent = slash ? (int)(slash - target) + 1 : 0;
-  char *path = NULL;
-  if (asprintf(&path, "%.*s.%s.%ld.%s", parent, target, target + parent, (long)getpid(), kind) < 0)
-    return NULL;
-  return path;
-}
+typedef struct file_list {
+  const term_file *files;
+  int count;
+} file_list;
 
 // The folder and, in it, the files of these names alone.
-static void remove_folder(const char *path, const term_file *files, int count) {
+static void remove_folder(const char *path, const void *user) {
+  const file_list *list = user;
   int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
-  for (int i = 0; i < count; i++) unlinkat(folder, files[i].name, 0);
+  for (int i = 0; i < list->count; i++) unlinkat(folder, list->files[i].name, 0);
   close(folder);
   rmdir(path);
 }
@@ -122,48 +103,21 @@ static int write_file(const char *folder, const term_file *file) {
   return number;
 }
 
-// Where the file system cannot exchange two folders at once: out of the way, and back if the new
-// one cannot take its place.
-static int replace_in_two(const char *aside, const char *target, const term_file *files,
-                          int count) {
-  char *old = path_aside(target, "old");
-  if (!old) return ENOMEM;
-  int number = rename(target, old) == 0 ? 0 : errno;
-  if (!number && rename(aside, target) != 0) {
-    number = errno;
-    rename(old, target);
-  }
-  if (!number) remove_folder(old, files, count);
-  free(old);
-  return number;
-}
-
-static int replace(const char *aside, const char *target, const term_file *files, int count) {
-  // Onto an empty folder, or where there is none, a plain rename does.
-  if (rename(aside, target) == 0) return 0;
-  if (errno != ENOTEMPTY && errno != EEXIST) return errno;
-  if (renameat2(AT_FDCWD, aside, AT_FDCWD, target, RENAME_EXCHANGE) != 0)
-    return replace_in_two(aside, target, files, count);
-  remove_folder(aside, files, count);
-  return 0;
-}
-
-static term_exit write_aside(const char *aside, const char *target, const term_file *files,
-                             int count) {
+static term_exit write_aside(const char *aside, const char *target, const file_list *list) {
   int number = mkdir(aside, 0777) == 0 ? 0 : errno;
   if (number) return fail(target, number);
-  for (int i = 0; i < count && !number; i++) number = write_file(aside, &files[i]);
-  if (!number) number = replace(aside, target, files, count);
+  for (int i = 0; i < list->count && !number; i++) number = write_file(aside, &list->files[i]);
+  if (!number) number = term_place_take(aside, target, remove_folder, list);
   if (!number) return TERM_DONE;
-  remove_folder(aside, files, count);
+  remove_folder(aside, list);
   return fail(target, number);
 }
 
 term_exit term_folder_write(const char *path, const term_file *files, int count) {
-  char *target = plain_path(path);
-  char *aside = target ? path_aside(target, "tmp") : NULL;
+  char *target = term_place_of(path);
+  char *aside = target ? term_place_aside(target, "tmp") : NULL;
   term_exit code = aside ? check(target, files, count) : term_fail_bike(BIKE_ERROR_MEMORY, path);
-  if (code == TERM_DONE) code = write_aside(aside, target, files, count);
+  if (code == TERM_DONE) code = write_aside(aside, target, &(file_list){files, count});
   free(aside);
   free(target);
   return code;
