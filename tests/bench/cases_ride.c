@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-// Asked by the issue, of each of the five states.
+// Of each of the five states: ten digits, in reach of all methods.
 static const double END_ERROR = 1e-10;
 
 // As tight as bike_ride takes it, but for a factor.

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Asked by the issue: some thousand roundings, of which each side makes about that many.
+// Some thousand roundings, of which each side makes about that many.
 static const double SYMPY_AGREES = 1e-12;
 
 enum { STATES = 1000, NEEDED = STATES / 2 };
