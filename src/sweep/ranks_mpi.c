@@ -54,11 +54,10 @@ term_exit sweep_ranks_agree(sweep_ranks ranks, term_exit mine, bool *speaks) {
 bool sweep_ranks_same(sweep_ranks ranks, const char *text, size_t size) {
   if (ranks.count == 1) return true;
   char *first = calloc(size, 1);
-  int same = first != NULL;
   if (!first) MPI_Abort(MPI_COMM_WORLD, TERM_INVALID);
   if (ranks.rank == 0) memcpy(first, text, size);
   MPI_Bcast(first, (int)size, MPI_CHAR, 0, MPI_COMM_WORLD);
-  same = memcmp(first, text, size) == 0;
+  bool same = memcmp(first, text, size) == 0;
   free(first);
   return same;
 }
