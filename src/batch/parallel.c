@@ -11,18 +11,16 @@ typedef struct work {
   void *user;
 } work;
 
-static void *run(void *user) {
-  work *w = user;
-  for (size_t i = atomic_fetch_add(&w->next, 1); i < w->count; i = atomic_fetch_add(&w->next, 1))
-    w->body(i, w->user);
-  return NULL;
-}
-
-static void run_and_tell(work *w, void (*progress)(double done, void *user), void *user) {
+static void run(work *w, void (*progress)(double done, void *user), void *user) {
   for (size_t i = atomic_fetch_add(&w->next, 1); i < w->count; i = atomic_fetch_add(&w->next, 1)) {
     w->body(i, w->user);
     if (progress && i + 1 < w->count) progress((double)(i + 1) / (double)w->count, user);
   }
+}
+
+static void *help(void *user) {
+  run(user, NULL, NULL);
+  return NULL;
 }
 
 void parallel_run(size_t count, int threads, void (*body)(size_t i, void *user), void *user,
@@ -32,9 +30,9 @@ void parallel_run(size_t count, int threads, void (*body)(size_t i, void *user),
   int started = 0;
   // a thread that cannot be had leaves its share to the others
   while (started < threads - 1 && started < PARALLEL_MOST_THREADS && (size_t)started + 1 < count &&
-         !pthread_create(&helpers[started], NULL, run, &w))
+         !pthread_create(&helpers[started], NULL, help, &w))
     started++;
-  run_and_tell(&w, progress, progress_user);
+  run(&w, progress, progress_user);
   for (int i = 0; i < started; i++) pthread_join(helpers[i], NULL);
   if (progress) progress(1, progress_user); // when the helpers are done too
 }

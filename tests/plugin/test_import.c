@@ -194,26 +194,38 @@ static int keep_last(const runner_sample *sample, void *user) {
   return 0;
 }
 
-// On the contacts that its author gave it: cylinders 2 cm wide as wheels, which slip a little,
-// whose middle is a little off the ground, and which carry the whole weight.
-static void test_ridden_on_its_own_contacts(void **state) {
-  (void)state;
+// Somebody's bicycle on the contacts that its author gave it.
+static runner *somebodys_as_it_is(void) {
   runner_status status;
-  runner_sample last;
-  runner_ride_result result;
   mjcf_error error = {""};
   runner *r = runner_import_as_is(SOMEBODYS, &status, &error);
   if (!r) fail_msg("%s", error.text);
   runner_model(r)->opt.timestep = 1e-3;
-  const bike_state start = {.speed = 5, .lean_rate = 0.1};
+  return r;
+}
+
+// A ride at 5 m/s from a lean rate; `last` is its last row.
+static runner_ride_result ride_for(double duration, runner *r, double lean_rate,
+                                   runner_sample *last) {
+  mjcf_error error = {""};
+  runner_ride_result result;
+  const bike_state start = {.speed = 5, .lean_rate = lean_rate};
   assert_int_equal(runner_start(r, &start, &error), RUNNER_OK);
   runner_ride_def def = runner_default_ride_def();
-  def.duration = 1;
+  def.duration = duration;
   def.on_sample = keep_last;
-  def.user = &last;
-  status = runner_ride(&result, r, &def, &error);
-  if (status != RUNNER_OK) fail_msg("%s", error.text);
-  assert_true(result.complete);
+  def.user = last;
+  if (runner_ride(&result, r, &def, &error) != RUNNER_OK) fail_msg("%s", error.text);
+  return result;
+}
+
+// Its wheels are cylinders 2 cm wide, which slip a little, whose middle is a little off the ground,
+// and which carry the whole weight.
+static void test_ridden_on_its_own_contacts(void **state) {
+  (void)state;
+  runner_sample last;
+  runner *r = somebodys_as_it_is();
+  assert_true(ride_for(1, r, 0.1, &last).complete);
   assert_near(last.row.x, 5, 0.1);
   double slip = fmax(last.slip[0], last.slip[1]),
          off = fmax(fabs(last.height[0]), fabs(last.height[1]));
@@ -229,21 +241,10 @@ static void test_ridden_on_its_own_contacts(void **state) {
 // same.
 static void test_fall_after_many_lifts_is_told(void **state) {
   (void)state;
-  runner_status status;
   runner_sample last;
-  runner_ride_result result;
-  mjcf_error error = {""};
-  runner *r = runner_import_as_is(SOMEBODYS, &status, &error);
-  if (!r) fail_msg("%s", error.text);
-  runner_model(r)->opt.timestep = 1e-3;
+  runner *r = somebodys_as_it_is();
   runner_model(r)->opt.integrator = mjINT_RK4;
-  const bike_state start = {.speed = 5, .lean_rate = 0.2};
-  assert_int_equal(runner_start(r, &start, &error), RUNNER_OK);
-  runner_ride_def def = runner_default_ride_def();
-  def.on_sample = keep_last;
-  def.user = &last;
-  status = runner_ride(&result, r, &def, &error);
-  if (status != RUNNER_OK) fail_msg("%s", error.text);
+  const runner_ride_result result = ride_for(runner_default_ride_def().duration, r, 0.2, &last);
   assert_false(result.complete);
   assert_true(result.event_count > BIKE_MAX_EVENTS);
   assert_int_equal(result.events[BIKE_MAX_EVENTS - 1].kind, BIKE_EVENT_LEAN_LIMIT);
