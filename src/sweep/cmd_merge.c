@@ -69,7 +69,9 @@ static bool print_json(const sweep_merged *m, bool written) {
       stdout);
 }
 
-static void say(const sweep_merged *m) {
+static void say(const sweep_merged *m, const arguments *args) {
+  if (sweep_is_whole(m) && !args->output && !args->json)
+    term_message("all %ld points are there: -o OUT.csv writes the table", m->points);
   if (m->present < m->points)
     term_message("%ld of %ld points are missing: %s", m->points - m->present, m->points, m->gaps);
   if (m->contradictory)
@@ -89,7 +91,7 @@ int cmd_merge(int argc, char **argv) {
                                args.partial, &error);
   if (code) return term_fail(term_exit_of(code), "%s", error.text);
   const bool whole = sweep_is_whole(&merged);
-  say(&merged);
+  say(&merged, &args);
   if (args.json &&
       !print_json(&merged, args.output && merged.contradictory == 0 && (whole || args.partial)))
     return term_fail_bike(BIKE_ERROR_MEMORY, "--json");

@@ -7,6 +7,7 @@
 #include "record.h"
 
 #include <bicycle/file.h>
+#include <sys/types.h>
 
 // What the header says: five lines, "# bicycle-sweep log 1", the program's version, the hash of the
 // spec, the number of points, the columns. Logs with the same header are parts of the same sweep.
@@ -15,6 +16,8 @@ char *sweep_log_header(const sweep_spec *spec); // free it; NULL when out of mem
 // A log in memory.
 typedef struct sweep_log_view {
   const char *path;    // the caller's
+  dev_t device;        // with `file`: which file it is, whatever its names
+  ino_t file;          //
   const char *data;    // mapped
   size_t size;         //
   size_t header_size;  // 0: no whole header
@@ -28,6 +31,9 @@ typedef struct sweep_log_view {
 // unfinished header either) with one line in `error`.
 int sweep_log_map(sweep_log_view *out, const char *path, bike_file_error *error);
 void sweep_log_unmap(sweep_log_view *view);
+
+// Whether `path` leads to the very file of the log.
+bool sweep_log_is(const sweep_log_view *view, const char *path);
 
 // The next record; `place` starts at 0.
 bool sweep_log_next(sweep_log_view *view, size_t *place, sweep_record *out);

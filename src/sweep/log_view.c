@@ -23,6 +23,8 @@ static int map(sweep_log_view *out, int descriptor, bike_file_error *error) {
   if (S_ISDIR(status.st_mode)) return fail(out->path, EISDIR, error);
   if (!S_ISREG(status.st_mode))
     return bike_message(error, BIKE_ERROR_FILE, "%s: is not a regular file", out->path);
+  out->device = status.st_dev;
+  out->file = status.st_ino;
   out->size = (size_t)status.st_size;
   out->data = "";
   if (out->size == 0) return BIKE_OK;
@@ -68,6 +70,11 @@ int sweep_log_map(sweep_log_view *out, const char *path, bike_file_error *error)
 void sweep_log_unmap(sweep_log_view *view) {
   if (view->size > 0) munmap((void *)(uintptr_t)view->data, view->size);
   *view = (sweep_log_view){0};
+}
+
+bool sweep_log_is(const sweep_log_view *view, const char *path) {
+  struct stat status;
+  return stat(path, &status) == 0 && status.st_dev == view->device && status.st_ino == view->file;
 }
 
 bool sweep_log_next(sweep_log_view *view, size_t *place, sweep_record *out) {

@@ -95,6 +95,15 @@ static void find_gaps(sweep_merged *out, const merge *m) {
 
 // ---- writing ----
 
+// The table is renamed into its place, so that it would replace a log of the same name.
+static int check_output(const merge *m, const char *output, bike_file_error *error) {
+  for (int i = 0; i < m->count; i++)
+    if (sweep_log_is(&m->views[i], output))
+      return bike_message(error, BIKE_ERROR_ARGUMENT,
+                          "%s: is one of the logs: the table would replace it", output);
+  return BIKE_OK;
+}
+
 static int write_table(const sweep_merged *merged, const merge *m, const char *path,
                        bike_file_error *error) {
   bike_output output;
@@ -118,7 +127,8 @@ bool sweep_is_whole(const sweep_merged *merged) {
 
 static int merge_all(sweep_merged *out, merge *m, const char *const *paths, const char *output,
                      bool partial, bike_file_error *error) {
-  const int code = map_all(m, paths, error);
+  int code = map_all(m, paths, error);
+  if (!code && output) code = check_output(m, output, error);
   if (code) return code;
   out->points = m->views[0].points;
   m->rows = calloc((size_t)out->points, sizeof *m->rows);

@@ -78,6 +78,10 @@ static void what_is_missing_is_told(void **state) {
   assert_non_null(strstr(result.err, "30 of 60 points are missing: 0, 2, 4, 6, 8, 10, 12, 14, 16, "
                                      "18, ..."));
   run_free(&result);
+  result = run_command("bicycle sweep merge whole.log");
+  assert_int_equal(result.status, 0);
+  assert_non_null(strstr(result.err, "all 60 points are there"));
+  run_free(&result);
 }
 
 // The sweep of another seed with this one's header: the same points, other values.

@@ -211,6 +211,7 @@ static const run_wrong commands[] = {
     {"bicycle sweep merge folder", "folder: Is a directory"},
     {"bicycle sweep merge foreign.log", "foreign.log: is not a log of bicycle sweep"},
     {"bicycle sweep merge right.log right.log -o - --json", "standard output"},
+    {"bicycle sweep merge right.log -o ./right.log", "./right.log: is one of the logs"},
     {"bicycle sweep merge right.log -o folder", "folder: Is a directory"},
     {"bicycle sweep merge right.log foreign.log", "foreign.log: is not a log"},
     {"bicycle sweep merge right.log other.log", "other.log: is of another sweep"},
@@ -229,6 +230,7 @@ static void wrong_commands(void **state) {
   sweep_run(0, "mkdir folder taken.log; bicycle sweep good.yml -o right && bicycle sweep other.yml "
                "-o other");
   run_all_wrong(commands, sizeof commands / sizeof *commands);
+  sweep_run(0, "bicycle sweep merge right.log -o right.csv"); // right.log is still a log
 }
 
 static int enter(void **state) {
