@@ -118,8 +118,8 @@ ROLL_API int roll_disc_count(const mjModel *m);
 ROLL_API int roll_drive_count(const mjModel *m);
 
 // Checks marker and sensors: the first error found and, where `element` is not NULL, what it is in:
-// discs, then skates, then driven joints, counted from 0 in the order of the model (-1: none of
-// them). ROLL_NO_MARKER for a model without any tuple.
+// discs, then skates, then driven joints, counted from 0 in the order of the model; of
+// ROLL_BAD_SENSOR the sensor's id (-1: none of them). ROLL_NO_MARKER for a model without any tuple.
 ROLL_API roll_error roll_check(int *element, const mjModel *m);
 
 //---------------------------------- what the discs do ---------------------------------------------

@@ -216,7 +216,7 @@ const char *roll_split_name(int *length, const char *name);
 int roll_find_wheel(const mjModel *m, const char *name, int length);
 int roll_find_drive(const mjModel *m, const char *name, int length);
 
-// What is wrong with the user sensors of the model.
-roll_error roll_check_sensors(const mjModel *m);
+// What is wrong with the user sensors of the model, and the id of the first that is.
+roll_error roll_check_sensors(int *sensor, const mjModel *m);
 
 #endif

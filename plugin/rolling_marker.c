@@ -166,14 +166,11 @@ static roll_error check_drives(int *index, const mjModel *m, roll_span span) {
 
 roll_error roll_check(int *element, const mjModel *m) {
   roll_marker marker = roll_find_marker(m);
-  int index = 0, at_element = 1;
+  int index = 0;
   roll_error error = check_wheels(&index, m, marker.discs, 0);
   if (!error) error = check_wheels(&index, m, marker.skates, 1);
   if (!error) error = check_drives(&index, m, marker.driven);
-  if (!error) {
-    at_element = 0;
-    error = roll_is_marked(&marker) ? roll_check_sensors(m) : ROLL_NO_MARKER;
-  }
-  if (element) *element = error && at_element ? index : -1;
+  if (!error) error = roll_is_marked(&marker) ? roll_check_sensors(&index, m) : ROLL_NO_MARKER;
+  if (element) *element = error && error != ROLL_NO_MARKER ? index : -1;
   return error;
 }

@@ -80,10 +80,10 @@ static int read_question(question *q, const mjModel *m, int sensor) {
   return 1;
 }
 
-roll_error roll_check_sensors(const mjModel *m) {
+roll_error roll_check_sensors(int *sensor, const mjModel *m) {
   question q;
-  for (int i = 0; i < m->nsensor; i++)
-    if (read_question(&q, m, i) && !q.quantity) return ROLL_BAD_SENSOR;
+  for (*sensor = 0; *sensor < m->nsensor; ++*sensor)
+    if (read_question(&q, m, *sensor) && !q.quantity) return ROLL_BAD_SENSOR;
   return ROLL_OK;
 }
 

@@ -17,6 +17,9 @@ static bool check_marker(const mjModel *m, runner_status *status, mjcf_error *er
   *status = code == ROLL_NO_MARKER ? RUNNER_MODEL : RUNNER_ARGUMENT;
   if (code == ROLL_OK) return true;
   if (element < 0) return mjcf_fail(error, "%s", roll_error_string(code));
+  if (code == ROLL_BAD_SENSOR)
+    return mjcf_fail(error, "%s (sensor '%s')", roll_error_string(code),
+                     m->names + m->name_sensoradr[element]);
   int discs = roll_disc_count(m);
   bool driven = element >= discs;
   return mjcf_fail(error, "%s (%s %d of the model)", roll_error_string(code),

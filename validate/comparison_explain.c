@@ -142,7 +142,23 @@ static void say_order(comparison *c) {
   }
 }
 
+// A gate on a part of the ride in which there is nothing: no rides differ there.
+static void explain_nothing_measured(comparison *c, const gate *worst) {
+  char words[MEASUREMENT_NAME];
+  say_agreed(c);
+  say(c, "nothing of %s was measured: ", in_words(words, worst->what.signal));
+  say_limit(c, worst);
+  if (*worst->what.detail) say(c, " (%s)", worst->what.detail);
+  for (int i = REFERENCE; i <= CANDIDATE; i++)
+    if (!c->side[i].trace.complete)
+      say(c, "; the ride of %s ends at %g s", c->side[i].label, c->side[i].trace.end_time);
+}
+
 static void explain_traces(comparison *c, const gate *worst) {
+  if (isnan(worst->what.value)) {
+    explain_nothing_measured(c, worst);
+    return;
+  }
   char words[MEASUREMENT_NAME];
   const study_shift *shift = &c->study.shift;
   // Curvature between rows is not seen: it leaves some hundredths of the mean square, other faults

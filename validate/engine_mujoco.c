@@ -96,6 +96,13 @@ static runner *import(const mujoco *m, const char *path, runner_status *status, 
   return run;
 }
 
+// Exact rolling has no time constant: one that is given was meant for contacts.
+static bool may_have_solref(const mujoco *m, runner_status *status, mjcf_error *error) {
+  if (!(m->options.contact_time > 0) || m->options.rolling == MJCF_ROLLING_CONTACT) return true;
+  *status = RUNNER_UNSUPPORTED;
+  return mjcf_fail(error, "solref is for rolling: contact");
+}
+
 static void *create(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
                     problem *p) {
   mujoco *m = calloc(1, sizeof *m);
@@ -110,8 +117,9 @@ static void *create(const bike_bicycle *bicycle, const engine_choice *choice, te
   m->options.moving_rider = choice->moving_rider;
   if ((int)choice->option[OPTION_INTEGRATOR] == CVODE)
     m->tolerance = choice->option[OPTION_TOLERANCE];
-  m->run = *choice->model ? import(m, choice->model, &status, &error)
-                          : runner_create(bicycle, &m->options, &status, &error);
+  m->run = !may_have_solref(m, &status, &error) ? NULL
+           : *choice->model                     ? import(m, choice->model, &status, &error)
+                            : runner_create(bicycle, &m->options, &status, &error);
   m->imported = *choice->model != '\0';
   if (m->run) return m;
   *code = fail(p, status, &error);

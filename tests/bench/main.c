@@ -83,8 +83,8 @@ static term_exit report(const bench_list *list, const options *o) {
 }
 
 int main(int argc, char **argv) {
-  static const char EXAMPLE[] = "bicycle-bench\n"
-                                "bicycle-bench --only rhs- --json";
+  static const char EXAMPLE[] = "Example: bicycle-bench\n"
+                                "         bicycle-bench --only rhs- --json\n";
   static const struct argp ARGP = {OPTION_LIST,
                                    parse,
                                    "[FILE]",

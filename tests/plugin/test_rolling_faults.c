@@ -130,7 +130,7 @@ static void test_bad_sensors(void **unused) {
   assert_int_equal(roll_check(&element, m), ROLL_OK);
   name[strlen(name) - 1] = 's'; // no quantity
   assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);
-  assert_int_equal(element, -1);
+  assert_int_equal(element, id);
   name[strlen(name) - 1] = 't';
   name[strlen("rolling:")] = 'F'; // no wheel
   assert_int_equal(roll_check(&element, m), ROLL_BAD_SENSOR);

@@ -244,6 +244,27 @@ static void test_faults(void **state) {
   assert_non_null(strstr(error.text, "no tuple"));
 }
 
+// Of several sensors, the one that is wrong.
+static void test_a_wrong_sensor_is_named(void **state) {
+  (void)state;
+  char text[1500], world[1800];
+  runner_status status;
+  mjcf_error error = {""};
+  disc_text(text, RIM, "", UPRIGHT);
+  char *end = strstr(text, "</mujoco>");
+  assert_non_null(end);
+  *end = '\0';
+  snprintf(
+      world, sizeof world,
+      "%s<sensor><user name=\"rolling:rim:normal\" objtype=\"body\" objname=\"disc\" dim=\"1\" "
+      "datatype=\"real\" needstage=\"acc\"/><user name=\"rolling:rim:nosuch\" objtype=\"body\" "
+      "objname=\"disc\" dim=\"1\" datatype=\"real\" needstage=\"acc\"/></sensor></mujoco>",
+      text);
+  assert_null(load_text(world, &status, &error));
+  assert_int_equal(status, RUNNER_ARGUMENT);
+  if (!strstr(error.text, "(sensor 'rolling:rim:nosuch')")) fail_msg("%s", error.text);
+}
+
 // Two discs on one body that ask for the same: it rolls, and a note says so where none did before.
 static void test_two_discs_on_one_body(void **state) {
   (void)state;
@@ -326,6 +347,7 @@ int main(void) {
                                      cmocka_unit_test(test_examples_ride),
                                      cmocka_unit_test(test_the_caller_may_stop),
                                      cmocka_unit_test(test_faults),
+                                     cmocka_unit_test(test_a_wrong_sensor_is_named),
                                      cmocka_unit_test(test_two_discs_on_one_body),
                                      cmocka_unit_test(test_a_start_is_put_right),
                                      cmocka_unit_test(test_mujocos_warnings),

@@ -228,6 +228,22 @@ static void test_foreign_contacts(void **state) {
   free(wrong);
 }
 
+static void test_solref_is_for_contacts(void **state) {
+  (void)state;
+  scenario s;
+  comparison refused;
+  problem p = {""};
+  support_read_scenario(&s, support_home,
+                        "title: exact\nbicycle: benchmark\nstart: {speed: 5}\nduration: 0.5\n"
+                        "sample: 0.01\nreference: {engine: analytic}\n"
+                        "candidate: {engine: mujoco, solref: 0.01}\ngates:\n"
+                        "  - {layer: Lp, metric: relative, limit: 1e-12, reason: test}\n");
+  assert_int_equal(comparison_open(&refused, &s, &p), TERM_USAGE);
+  assert_non_null(strstr(p.text, "solref is for rolling: contact"));
+  comparison_close(&refused);
+  scenario_clear(&s);
+}
+
 //---------------------------------- cvode ---------------------------------------------------------
 
 // The same model by another integrator: no step of MuJoCo's shows, with either root, and the work
@@ -263,6 +279,7 @@ int main(void) {
       cmocka_unit_test(test_short_recording_ends_early),
       cmocka_unit_test_setup_teardown(test_two_million_rows, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_foreign_contacts, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_solref_is_for_contacts, support_enter, support_leave),
       cmocka_unit_test(test_cvode),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

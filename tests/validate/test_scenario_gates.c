@@ -145,6 +145,7 @@ static void test_empty_window_says_so(void **state) {
   const measurement *m = max_within(&f->comparison, 0.32, 0.38);
   assert_true(isnan(m->value));
   assert_non_null(strstr(m->detail, "no comparable row"));
+  assert_non_null(strstr(f->comparison.cause, "nothing of lean was measured"));
   support_close(f);
 }
 

@@ -13,13 +13,14 @@
   X(BIKE_ERROR_MEMORY, "out of memory")                                                            \
   X(BIKE_ERROR_PARAMETER, "a parameter of the bicycle is outside its range")                       \
   X(BIKE_ERROR_IMPOSSIBLE, "the two wheels of this bicycle cannot stand on the ground")            \
-  X(BIKE_ERROR_NO_RIDER, "a rider offset is given but no part of the bicycle is the rider")        \
+  X(BIKE_ERROR_NO_RIDER, "no part of the bicycle is the rider")                                    \
   X(BIKE_ERROR_GEOMETRY,                                                                           \
     "no geometry: both wheels cannot touch the ground at this lean and steer")                     \
   X(BIKE_ERROR_SINGULAR, "singular: the accelerations are not determined at this state")           \
   X(BIKE_ERROR_SOLVER, "the integrator failed")                                                    \
   X(BIKE_ERROR_NO_CONVERGENCE, "no convergence")                                                   \
-  X(BIKE_ERROR_NOT_STATIONARY, "the state asked for is not a stationary motion")                   \
+  X(BIKE_ERROR_NOT_STATIONARY, "the state asked for is not a stationary motion (riding "           \
+                               "straight is one only of a bicycle that is its own mirror image)")  \
   X(BIKE_ERROR_INTERRUPTED, "interrupted by the caller")                                           \
   X(BIKE_ERROR_FILE, "a file cannot be read or written")                                           \
   X(BIKE_ERROR_SYNTAX, "a file does not say what it should")
