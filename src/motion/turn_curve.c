@@ -89,11 +89,12 @@ static int in_plane(double *f, double J[NEWTON_MAX][NEWTON_MAX], const double *y
   return BIKE_OK;
 }
 
-int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
-                       const turn_point *from, double distance) {
-  // Newton's method ends at the rounding of the terms, 1e-12 rad/s^2 at walking pace and more at
-  // tight fast turns, or far above this; solutions themselves are judged again
-  const double solved = 1e-8;
+// Newton's method ends at the rounding of the terms, 1e-12 rad/s^2 at walking pace and more at
+// tight fast turns, or far above this; solutions themselves are judged again.
+static const double SOLVED = 1e-8;
+
+static int correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
+                   const turn_point *from, double distance, double solved) {
   plane_question question = {curve, from, distance};
   turn_point found = *out;
   if (newton_solve(solver, found.y, residual, in_plane, &question)) return BIKE_ERROR_GEOMETRY;
@@ -101,6 +102,17 @@ int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curv
   int code = turn_curve_tangent(found.along, curve, found.y, from->along);
   if (!code) *out = found;
   return code;
+}
+
+int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
+                       const turn_point *from, double distance) {
+  return correct(out, residual, curve, solver, from, distance, SOLVED);
+}
+
+int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
+                               newton *solver, const turn_point *from, double distance) {
+  // where the ends of a tight fast turn pass just so, what is between need not: 1.5e-8 was met
+  return correct(out, residual, curve, solver, from, distance, 100 * SOLVED);
 }
 
 double turn_curve_beyond(const turn_curve *c, const turn_point *at, bike_turn_variable variable,
