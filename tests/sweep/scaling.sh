@@ -9,13 +9,13 @@ trap 'rm -rf -- "$work"' EXIT
 cd -- "$work"
 PATH=$bin:$PATH
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-# 300 rides of 1 to 60 s: starts that come back, circle and fall.
+# 9600 rides of 1 to 60 s: starts that come back, circle and fall.
 cat >rides.yml <<'END'
 bicycle: roadster
 sweep:
-  speed: {from: 5, to: 6.5, count: 5}
-  lean: {from: -0.5, to: 0.5, count: 12}
-  steer: {from: -0.4, to: 0.4, count: 5}
+  speed: {from: 5, to: 6.5, count: 20}
+  lean: {from: -0.5, to: 0.5, count: 24}
+  steer: {from: -0.4, to: 0.4, count: 20}
 outputs: [weave_speed, outcome, time]
 END
 
