@@ -7,7 +7,6 @@
 #include <bicycle/stability.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "batch/fate.h"
 #include "batch/parallel.h"
@@ -41,28 +40,8 @@ static int start_of(bike_state *out, bool *exists, const bike_model *model, doub
   return fate_is_no_start(code) ? BIKE_OK : code;
 }
 
-// Room for the members of a grid, and where in it each stands.
-typedef struct grid {
-  size_t count; // of members
-  bike_member *members;
-  bike_member_result *results;
-  size_t *places;
-} grid;
-
-static int allocate(grid *g, size_t size) {
-  g->members = calloc(size, sizeof *g->members);
-  g->results = calloc(size, sizeof *g->results);
-  g->places = calloc(size, sizeof *g->places);
-  return g->members && g->results && g->places ? BIKE_OK : BIKE_ERROR_MEMORY;
-}
-
-static void release(grid *g) {
-  free(g->members);
-  free(g->results);
-  free(g->places);
-}
-
-static int gather(grid *g, bike_fate *out, const bike_model *model, const bike_basin_def *def) {
+static int gather(fate_riders *riders, bike_fate *out, const bike_model *model,
+                  const bike_basin_def *def) {
   size_t size = def->lean_count * def->steer_count;
   for (size_t k = 0; k < size; k++) {
     bike_state start;
@@ -71,28 +50,21 @@ static int gather(grid *g, bike_fate *out, const bike_model *model, const bike_b
                         def->steers[k / def->lean_count]);
     if (code) return code;
     out[k] = BIKE_FATE_NO_START;
-    if (!exists) continue;
-    g->members[g->count] = (bike_member){.model = model, .start = start};
-    g->places[g->count++] = k;
+    bike_member member = {.model = model, .start = start};
+    if (exists) fate_riders_add(riders, &member, k);
   }
   return BIKE_OK;
 }
 
-static int ride_all(grid *g, bike_fate *out, double *times, const bike_model *model,
+static int ride_all(fate_riders *riders, bike_fate *out, double *times, const bike_model *model,
                     const bike_basin_def *def) {
   bool stable = false;
   int code = find_stable(&stable, model, def->speed);
-  if (!code) code = allocate(g, def->lean_count * def->steer_count);
-  if (!code) code = gather(g, out, model, def);
+  if (!code) code = gather(riders, out, model, def);
   bike_ensemble_def ensemble = fate_ensemble(def);
   if (!stable) ensemble.settled = 0;
-  if (!code) code = bike_ensemble_ride(g->results, g->members, g->count, &ensemble);
-  for (size_t i = 0; i < g->count && !code; i++) {
-    const bike_member_result *r = &g->results[i];
-    code = r->error;
-    out[g->places[i]] = fate_of_result(r);
-    if (times) times[g->places[i]] = r->time;
-  }
+  if (!code) code = fate_riders_ride(riders, out, times, NULL, &ensemble);
+  for (size_t i = 0; i < riders->count && !code; i++) code = riders->results[i].error;
   return code;
 }
 
@@ -109,9 +81,10 @@ static int basin(bike_fate *out, double *times, const bike_model *model,
                  const bike_basin_def *def) {
   int code = check(def);
   if (code) return code;
-  grid g = {0};
-  code = ride_all(&g, out, times, model, def);
-  release(&g);
+  fate_riders riders;
+  code = fate_riders_allocate(&riders, def->lean_count * def->steer_count);
+  if (!code) code = ride_all(&riders, out, times, model, def);
+  fate_riders_free(&riders);
   return code;
 }
 

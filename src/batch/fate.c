@@ -49,45 +49,60 @@ static bool attracts(const bike_member *member, const bike_state *state, void *u
          !bike_eigenvalues_of(&e, linear.A) && bike_all_decay(&e);
 }
 
-typedef struct starts {
-  size_t count; // of those that ride
-  bike_member *members;
-  bike_member_result *results;
-  size_t *places;
-} starts;
+int fate_riders_allocate(fate_riders *r, size_t size) {
+  size_t room = size ? size : 1;
+  *r = (fate_riders){.members = calloc(room, sizeof *r->members),
+                     .results = calloc(room, sizeof *r->results),
+                     .places = calloc(room, sizeof *r->places)};
+  return r->members && r->results && r->places ? BIKE_OK : BIKE_ERROR_MEMORY;
+}
+
+void fate_riders_free(fate_riders *r) {
+  free(r->members);
+  free(r->results);
+  free(r->places);
+}
+
+void fate_riders_add(fate_riders *r, const bike_member *member, size_t place) {
+  r->members[r->count] = *member;
+  r->places[r->count++] = place;
+}
+
+int fate_riders_ride(fate_riders *r, bike_fate *out, double *times, int *codes,
+                     const bike_ensemble_def *ensemble) {
+  int code = bike_ensemble_ride(r->results, r->members, r->count, ensemble);
+  for (size_t i = 0; i < r->count && !code; i++) {
+    const bike_member_result *result = &r->results[i];
+    if (codes) codes[r->places[i]] = result->error;
+    out[r->places[i]] = fate_of_result(result);
+    if (times) times[r->places[i]] = result->time;
+  }
+  return code;
+}
 
 // The code of a start that cannot be ridden; 0 also where there is no such state.
-static int add(starts *s, const bike_member *member, size_t place) {
+static int add(fate_riders *riders, const bike_member *member, size_t place) {
   bike_snapshot first;
   bike_upright_matrices m;
   int code = bike_evaluate(&first, member->model, &member->start, &member->input);
   if (code) return fate_is_no_start(code) ? BIKE_OK : code;
-  bike_member *rides = &s->members[s->count];
-  *rides = *member;
-  rides->circles =
+  bike_member rides = *member;
+  rides.circles =
       member->input.rider_offset != 0 || bike_linearize_upright(&m, member->model) != BIKE_OK;
-  s->places[s->count++] = place;
+  fate_riders_add(riders, &rides, place);
   return BIKE_OK;
 }
 
-static int ride_all(starts *s, bike_fate *out, double *times, int *codes,
+static int ride_all(fate_riders *riders, bike_fate *out, double *times, int *codes,
                     const bike_member *members, size_t count, const bike_basin_def *def) {
-  if (!s->members || !s->results || !s->places) return BIKE_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) {
     out[i] = BIKE_FATE_NO_START;
-    codes[i] = add(s, &members[i], i);
+    codes[i] = add(riders, &members[i], i);
     if (times) times[i] = 0;
   }
   bike_ensemble_def ensemble = fate_ensemble(def);
   ensemble.judge = attracts;
-  int code = bike_ensemble_ride(s->results, s->members, s->count, &ensemble);
-  for (size_t i = 0; i < s->count && !code; i++) {
-    const bike_member_result *r = &s->results[i];
-    codes[s->places[i]] = r->error;
-    out[s->places[i]] = fate_of_result(r);
-    if (times) times[s->places[i]] = r->time;
-  }
-  return code;
+  return fate_riders_ride(riders, out, times, codes, &ensemble);
 }
 
 static bool is_right(const bike_member *members, size_t count, const bike_basin_def *def) {
@@ -105,14 +120,10 @@ int bike_fates_of_starts(bike_fate *out, double *times, int *codes, const bike_m
                          size_t count, const bike_basin_def *def) {
   if (!out || !codes || !members || !def || !is_right(members, count, def))
     return BIKE_ERROR_ARGUMENT;
-  size_t room = count ? count : 1;
-  starts s = {.members = calloc(room, sizeof *s.members),
-              .results = calloc(room, sizeof *s.results),
-              .places = calloc(room, sizeof *s.places)};
-  int code = ride_all(&s, out, times, codes, members, count, def);
-  free(s.members);
-  free(s.results);
-  free(s.places);
+  fate_riders riders;
+  int code = fate_riders_allocate(&riders, count);
+  if (!code) code = ride_all(&riders, out, times, codes, members, count, def);
+  fate_riders_free(&riders);
   return code;
 }
 

@@ -38,7 +38,8 @@ static mjModel *compile_apart(const bike_bicycle *b, const mjcf_options *options
   return m;
 }
 
-// Relative to the larger of 1 and the number: as in test_bicycle_mjcf, since both come from one text.
+// Relative to the larger of 1 and the number: as in test_bicycle_mjcf, since both come from one
+// text.
 static void same_numbers(const double *is, const double *should, int count) {
   for (int i = 0; i < count; i++) assert_near(is[i], should[i], 1e-12 * fmax(1, fabs(should[i])));
 }

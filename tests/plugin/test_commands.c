@@ -44,7 +44,8 @@ static const run_wrong commands[] = {
     {"bicycle mujoco mjcf roadster -o out.xml --lean 0.1", "--speed is missing"},
     {"bicycle mujoco mjcf roadster -o out.xml --speed 6 --lean 1.5", "roadster: the lean"},
     {"bicycle mujoco mjcf roadster -o out.mjb --rider-offset 1e300", "not finite"},
-    {"bicycle mujoco mjcf roadster_riderless -o out.mjb --rider-offset 0.1", "no part of the bicycle is the rider"},
+    {"bicycle mujoco mjcf roadster_riderless -o out.mjb --rider-offset 0.1",
+     "no part of the bicycle is the rider"},
     // Models that are broken, or no bicycles.
     {MODEL_RIDE("nosuch.xml"), "nosuch.xml: No such file"},
     {MODEL_RIDE("nosuch.mjb"), "nosuch.mjb: No such file"},
@@ -107,7 +108,8 @@ static const run_wrong commands[] = {
     {"bicycle mujoco mjcf roadster -o out.xml --moving-rider --rolling contact", "exact rolling"},
     {"bicycle mujoco mjcf roadster_riderless -o out.xml --moving-rider", "rider"},
     {"bicycle mujoco ride roadster_riderless --speed 6 --input rider.csv " TIMES, "rider"},
-    {"bicycle mujoco ride roadster_riderless --speed 6 --rider-offset 0.01 " TIMES, "no part of the bicycle is the rider"},
+    {"bicycle mujoco ride roadster_riderless --speed 6 --rider-offset 0.01 " TIMES,
+     "no part of the bicycle is the rider"},
     // Outputs.
     {"bicycle mujoco ride roadster --speed 6 -o folder.xml " TIMES, "folder.xml: Is a directory"},
     {"bicycle mujoco ride roadster --speed 6 -o nosuch/out.csv " TIMES, "nosuch/out.csv"},
