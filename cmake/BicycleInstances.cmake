@@ -15,6 +15,10 @@ set(BICYCLE_KERNEL_FLAGS -ffp-contract=fast -fno-math-errno -fno-trapping-math
   # vectors pass between static functions only, where the ABI does not matter
   $<$<C_COMPILER_ID:GNU>:-Wno-psabi>)
 
+# For straight code besides, whose results others judge: terms with a factor that is zero in the
+# geometry drop out where 0 x is taken for 0, a twentieth of the time.
+set(BICYCLE_STRAIGHT_FLAGS -ffinite-math-only -fno-signed-zeros)
+
 # An object library of kernel code, part of the library `bicycle`.
 function(bicycle_kernel_target target)
   target_include_directories(${target} PRIVATE

@@ -113,7 +113,7 @@ static block_view view_of(const bike_batch_accelerations *out, const bike_batch_
 }
 
 // Fewer states than lanes: spare lanes hold the first of them.
-static unsigned solve_part(const bike_batch *b, const lanes_models *block, const block_view *view,
+static uint64_t solve_part(const bike_batch *b, const lanes_models *block, const block_view *view,
                            size_t used) {
   double state[LANES_STATE][LANES_MOST], out[LANES_ACCELERATIONS][LANES_MOST];
   block_view padded;
@@ -122,21 +122,23 @@ static unsigned solve_part(const bike_batch *b, const lanes_models *block, const
     padded.state[k] = state[k];
   }
   for (int k = 0; k < LANES_ACCELERATIONS; k++) padded.out[k] = out[k];
-  unsigned solved = b->lanes->accelerate(padded.out, block, padded.state);
+  uint64_t solved = b->lanes->accelerate(padded.out, block, true, padded.state, 1);
   for (int k = 0; k < LANES_ACCELERATIONS; k++) memcpy(view->out[k], out[k], used * sizeof(double));
   return solved;
 }
 
-// States first .. first + used, as many as lanes or fewer.
-static void solve_block(bike_batch_accelerations *out, const bike_batch *b,
-                        const bike_batch_states *s, size_t first, size_t used) {
-  size_t width = (size_t)b->lanes->width;
-  const lanes_models *block = block_at(b, b->model_count == 1 ? 0 : first / width);
+// States first .. first + used, of whole blocks or less than one.
+static void solve_some(bike_batch_accelerations *out, const bike_batch *b,
+                       const bike_batch_states *s, size_t first, size_t used) {
+  size_t width = (size_t)b->lanes->width, blocks = used / width;
+  bool same = b->model_count == 1;
+  const lanes_models *models = block_at(b, same ? 0 : first / width);
   block_view view = view_of(out, s, first);
-  unsigned solved = used == width ? b->lanes->accelerate(view.out, block, view.state)
-                                  : solve_part(b, block, &view, used);
+  uint64_t solved = blocks > 0
+                        ? b->lanes->accelerate(view.out, models, same, view.state, (int)blocks)
+                        : solve_part(b, models, &view, used);
   if (out->codes) memset(out->codes + first, 0, used * sizeof *out->codes); // BIKE_OK
-  unsigned all = (1u << used) - 1;
+  uint64_t all = UINT64_MAX >> (64 - used);
   for (size_t i = 0; (solved & all) != all && i < used; i++)
     if (!(solved >> i & 1)) solve_alone(out, b, s, first + i);
 }
@@ -151,10 +153,11 @@ int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch
   if (!out || !batch || !states) return BIKE_ERROR_ARGUMENT;
   if (count > 0 && !complete(out, states)) return BIKE_ERROR_ARGUMENT;
   if (batch->model_count != 1 && count != batch->model_count) return BIKE_ERROR_ARGUMENT;
-  size_t width = (size_t)batch->lanes->width;
-  for (size_t first = 0; first < count; first += width) {
+  size_t width = (size_t)batch->lanes->width, most = LANES_BLOCKS * width, used;
+  for (size_t first = 0; first < count; first += used) {
     size_t left = count - first;
-    solve_block(out, batch, states, first, left < width ? left : width);
+    used = left < width ? left : left < most ? left / width * width : most;
+    solve_some(out, batch, states, first, used);
   }
   return BIKE_OK;
 }

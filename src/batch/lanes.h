@@ -5,10 +5,15 @@
 #define BICYCLE_BATCH_LANES_H
 
 #include <bicycle/state.h>
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 // No instruction set has more; blocks below have room for so many.
 enum { LANES_MOST = 8 };
+
+// So many blocks at a time: a bit for each state.
+enum { LANES_BLOCKS = 64 / LANES_MOST };
 
 // Bicycles packed for the lanes, of `block_size` bytes, aligned to 64.
 typedef struct lanes_models lanes_models;
@@ -66,11 +71,12 @@ typedef struct lanes_functions {
   size_t block_size;
   // Puts a bicycle into one lane of a block.
   void (*pack)(lanes_models *block, const bike_model *model, int lane);
-  // Accelerations of a block, hands off. Bit i of the result: lane i has been solved; the others'
-  // are undefined: their rear angle is too far from the guess near upright, or they have no
+  // Accelerations of up to LANES_BLOCKS blocks of states, hands off, of as many blocks of bicycles
+  // or, if they are the same, of one. Bit i of the result: state i has been solved; the others'
+  // results are undefined: their rear angle is too far from the guess near upright, or they have no
   // geometry.
-  unsigned (*accelerate)(double *const out[LANES_ACCELERATIONS], const lanes_models *block,
-                         const double *const state[LANES_STATE]);
+  uint64_t (*accelerate)(double *const out[LANES_ACCELERATIONS], const lanes_models *models,
+                         bool same, const double *const state[LANES_STATE], int blocks);
   // Stationary motion, hands off: steer and rider offset go in as guesses. Bit i: lane i has come
   // to an end of Newton's method; whether near its guess is the caller's to judge.
   unsigned (*turn)(double *steer, double *offset, const lanes_models *block, const double *speed,

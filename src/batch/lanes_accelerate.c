@@ -18,27 +18,61 @@ static inline lanes_mask is_finite(real x) {
 }
 
 // What the scalar path judges as singular is left to it.
-static inline lanes_mask regular(const instant *now, real reach) {
+static inline lanes_mask regular(const checks *c, real reach) {
   const double least = 64 * 2.220446049250313e-16; // as there
-  const kane *k = &now->k;
-  return (lanes_abs(now->at.D) > least * reach) & (k->pivot[0] > 0.0 * reach) &
-         (k->pivot[1] > least * k->M[1]) & (k->pivot[2] > least * k->M[0]);
+  return (lanes_abs(c->D) > least * reach) & (c->pivot_v > 0.0 * reach) &
+         (c->pivot_kap > least * c->diagonal_kap) & (c->pivot_phi > least * c->diagonal_phi);
 }
 
-__attribute__((flatten)) unsigned
-INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS], const lanes_models *block,
-                           const double *const state[LANES_STATE]) {
-  const kernel_model *m = &block->model;
-  real phi = loaded(state[LANES_STEER]), kappa = loaded(state[LANES_LEAN]);
-  form u = {loaded(state[LANES_STEER_RATE]), loaded(state[LANES_LEAN_RATE]),
-            loaded(state[LANES_SPEED])};
-  const load hands_off = {{0}, {0}, {0}, {0}, {0}}; // what it does not move costs nothing
+// The states of one block.
+typedef struct column_view {
+  const double *const *state;
+  int first;
+} column_view;
+
+static inline real column(const column_view *v, int which) {
+  return loaded(v->state[which] + v->first);
+}
+
+// First pass. Newton's method waits for itself most of the time: without the rest of the kernel
+// between, several blocks are in work at once. Worth a twentieth of the whole.
+__attribute__((noinline, flatten)) static void begin(posture *out, const kernel_model *m,
+                                                     column_view v) {
+  real phi = column(&v, LANES_STEER), kappa = column(&v, LANES_LEAN);
+  find_posture(out, &m->geometry, guessed(m, phi, kappa), phi, kappa);
+}
+
+static inline void put(double *to, real x) {
+  memcpy(to, &x, sizeof x);
+}
+
+// Second pass; bit i of the result: lane i is solved.
+__attribute__((noinline, flatten)) static unsigned finish(double *const out[LANES_ACCELERATIONS],
+                                                          const lanes_models *block,
+                                                          const posture *at, column_view v) {
+  form u = {column(&v, LANES_STEER_RATE), column(&v, LANES_LEAN_RATE), column(&v, LANES_SPEED)};
   instant now;
-  solve_instant(&now, m, guessed(m, phi, kappa), phi, kappa, u, &hands_off);
+  place(&now.at, &block->model.geometry, at);
+  solve_located(&now, &block->model, u, NULL);
   form a = now.acceleration;
-  memcpy(out[LANES_LEAN_ACC], &a.kap, sizeof a.kap);
-  memcpy(out[LANES_STEER_ACC], &a.phi, sizeof a.phi);
-  memcpy(out[LANES_SPEED_RATE], &a.v, sizeof a.v);
-  return lanes_bits(lanes_found(&now.at, block->reach) & regular(&now, block->reach) &
+  put(out[LANES_LEAN_ACC] + v.first, a.kap);
+  put(out[LANES_STEER_ACC] + v.first, a.phi);
+  put(out[LANES_SPEED_RATE] + v.first, a.v);
+  checks c = checks_of(&now);
+  return lanes_bits(lanes_found(c.root, block->reach) & regular(&c, block->reach) &
                     is_finite(a.phi) & is_finite(a.kap) & is_finite(a.v));
+}
+
+uint64_t INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS],
+                                    const lanes_models *models, bool same,
+                                    const double *const state[LANES_STATE], int blocks) {
+  posture at[LANES_BLOCKS];
+  uint64_t solved = 0;
+  for (int k = 0; k < blocks; k++)
+    begin(&at[k], &models[same ? 0 : k].model, (column_view){state, k * LANES});
+  for (int k = 0; k < blocks; k++) {
+    column_view v = {state, k * LANES};
+    solved |= (uint64_t)finish(out, &models[same ? 0 : k], &at[k], v) << v.first;
+  }
+  return solved;
 }

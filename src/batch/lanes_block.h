@@ -22,11 +22,11 @@ static inline real loaded(const double *from) {
 }
 
 // As rear_angle_found.
-static inline lanes_mask lanes_found(const position *g, real reach) {
+static inline lanes_mask lanes_found(root_checks g, real reach) {
   const double tolerance = 4 * 2.220446049250313e-16, flat = 1e-9;
   real nought = reach - reach;
-  return (lanes_abs(g->residual) <= tolerance * reach) & (g->Q > nought) & (g->c_br > nought) &
-         (g->c_kap > flat + nought) & (g->c_psi > flat + nought);
+  return (lanes_abs(g.residual) <= tolerance * reach) & (g.Q > nought) & (g.c_br > nought) &
+         (g.c_kap > flat + nought) & (g.c_psi > flat + nought);
 }
 
 #endif

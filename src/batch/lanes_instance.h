@@ -7,9 +7,9 @@
 #include "equations/instruction_set.h"
 
 void INSTANCE(lanes_pack)(lanes_models *block, const bike_model *model, int lane);
-unsigned INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS],
-                                    const lanes_models *block,
-                                    const double *const state[LANES_STATE]);
+uint64_t INSTANCE(lanes_accelerate)(double *const out[LANES_ACCELERATIONS],
+                                    const lanes_models *models, bool same,
+                                    const double *const state[LANES_STATE], int blocks);
 unsigned INSTANCE(lanes_turn)(double *steer, double *offset, const lanes_models *block,
                               const double *speed, const double *lean);
 unsigned INSTANCE(lanes_eigenvalues)(double *re, double *im, const double *K, const double *C);

@@ -51,7 +51,7 @@ static inline lanes_mask rates_in_lanes(real dy[LANES_STATE], instant *now, cons
   dy[LANES_STEER_RATE] = now->acceleration.phi;
   dy[LANES_SPEED] = now->acceleration.v;
   real sum = dy[LANES_LEAN_RATE] + dy[LANES_STEER_RATE] + dy[LANES_SPEED];
-  return lanes_found(&now->at, p->block.reach) & (now->at.D * p->side > 0.0 * sum) &
+  return lanes_found(root_checks_of(&now->at), p->block.reach) & (now->at.D * p->side > 0.0 * sum) &
          (sum - sum == 0.0 * p->side);
 }
 
@@ -104,8 +104,9 @@ __attribute__((noinline, flatten)) static void first_stage(trial *tr, real dy[LA
   const position *g = &now.at;
   tr->inside = (g->D * p->side > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f))) &
                (g->Q > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f)));
-  p->from.s = lanes_either(tr->at_start, g->s_br, p->from.s);
-  p->from.c = lanes_either(tr->at_start, g->c_br, p->from.c);
+  start next = begun(&p->block.model, g->s_br, g->c_br);
+  p->from.s = lanes_either(tr->at_start, next.s, p->from.s);
+  p->from.c = lanes_either(tr->at_start, next.c, p->from.c);
   tr->aloft = (lanes_mask){0};
   if (!watch_lift) return;
   ground forces = ground_forces(&now, &p->block.model, &p->in);
@@ -156,8 +157,9 @@ static void take_next(pen *p, int lane, const lanes_ride_def *def) {
   p->before_t[lane] = p->t[lane] = 0;
   p->h[lane] = FIRST_STEP;
   p->side[lane] = r.side;
-  p->from.s[lane] = r.rear_angle[0];
-  p->from.c[lane] = r.rear_angle[1];
+  p->from.r[lane] = r.model->newton_scale;
+  p->from.s[lane] = r.model->newton_scale * r.rear_angle[0];
+  p->from.c[lane] = r.model->newton_scale * r.rear_angle[1];
   p->in.w[lane] = r.w;
   p->in.steer_torque[lane] = r.steer_torque;
   p->in.roll_torque[lane] = r.roll_torque;

@@ -26,7 +26,7 @@ __attribute__((noinline, flatten)) static void forces_at(forces *out, lanes_mask
   instant now;
   solve_instant(&now, m, guessed(m, steer, lean), steer, lean, (form){nought, nought, speed}, &in);
   *out = (forces){now.k.f[0], now.k.f[1]};
-  *found = lanes_found(&now.at, block->reach) & (now.at.D > nought);
+  *found = lanes_found(root_checks_of(&now.at), block->reach) & (now.at.D > nought);
 }
 
 unsigned INSTANCE(lanes_turn)(double *steer, double *offset, const lanes_models *block,

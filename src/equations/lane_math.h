@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // GCC vectors of LANES doubles, as many as a register of the instruction set holds unless LANES is
-// set before, with square root, sine and cosine.
+// set before, with square root, sine and cosine; and the same sine and cosine for one double.
 #ifndef BICYCLE_LANE_MATH_H
 #define BICYCLE_LANE_MATH_H
 
@@ -39,18 +39,19 @@ LANE_INLINE lanes lanes_of(double x) {
 
 // Square roots are the processor's. Sine and cosine are SLEEF's, to one unit in the last place: of
 // the libraries at hand the one that gives both at once. libmvec's, to four, took as long, and
-// light steering makes a hundred times that of it.
+// light steering makes a hundred times that of it. SLEEF promises the same bits from its finz_
+// functions (with fused multiply-adds), and from its cinz_ ones, whatever the width.
 #if defined __AVX512F__ && LANES == 8
 #define LANES_SQRT(x) ((lanes)_mm512_sqrt_pd((__m512d)(x)))
-#define LANES_SINCOS(x) Sleef_sincosd8_u10avx512f((__m512d)(x))
+#define LANES_SINCOS(x) Sleef_finz_sincosd8_u10avx512f((__m512d)(x))
 typedef Sleef___m512d_2 lanes_pair;
 #elif defined __AVX2__ && LANES == 4
 #define LANES_SQRT(x) ((lanes)_mm256_sqrt_pd((__m256d)(x)))
-#define LANES_SINCOS(x) Sleef_sincosd4_u10avx2((__m256d)(x))
+#define LANES_SINCOS(x) Sleef_finz_sincosd4_u10avx2((__m256d)(x))
 typedef Sleef___m256d_2 lanes_pair;
 #elif defined __SSE2__ && LANES == 2
 #define LANES_SQRT(x) ((lanes)_mm_sqrt_pd((__m128d)(x)))
-#define LANES_SINCOS(x) Sleef_sincosd2_u10sse2((__m128d)(x))
+#define LANES_SINCOS(x) Sleef_cinz_sincosd2_u10sse2((__m128d)(x))
 typedef Sleef___m128d_2 lanes_pair;
 #endif
 
@@ -68,6 +69,15 @@ LANE_INLINE void lanes_sincos(lanes x, lanes *s, lanes *c) {
   *s = (lanes)((lanes_mask)both.x | ~usual);
   *c = (lanes)((lanes_mask)both.y | ~usual);
 }
+static inline void one_sincos(double x, double *s, double *c) {
+#ifdef __FMA__
+  Sleef_double_2 both = Sleef_finz_sincosd1_u10purecfma(x);
+#else
+  Sleef_double_2 both = Sleef_cinz_sincosd1_u10purec(x);
+#endif
+  *s = both.x;
+  *c = both.y;
+}
 #else
 LANE_INLINE lanes lanes_sqrt(lanes x) {
   for (int i = 0; i < LANES; i++) x[i] = sqrt(x[i]);
@@ -81,6 +91,10 @@ LANE_INLINE void lanes_sincos(lanes x, lanes *s, lanes *c) {
     (*s)[i] = sine;
     (*c)[i] = cosine;
   }
+}
+
+static inline void one_sincos(double x, double *s, double *c) {
+  sincos(x, s, c);
 }
 #endif
 

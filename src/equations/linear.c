@@ -19,8 +19,9 @@ typedef struct perturbed {
   load in;
 } perturbed;
 
-static perturbed perturbed_state(const bike_state *s, const bike_input *in, double beta_r) {
-  return (perturbed){.from = {sin(beta_r), cos(beta_r)},
+static perturbed perturbed_state(const kernel_model *m, const bike_state *s, const bike_input *in,
+                                 double beta_r) {
+  return (perturbed){.from = begun(m, sin(beta_r), cos(beta_r)),
                      .x = {s->steer, s->lean, s->steer_rate, s->lean_rate, s->speed},
                      .in = {in->steer_torque, in->roll_torque, in->rider_offset, in->rider_velocity,
                             in->rider_acceleration}};
@@ -60,18 +61,16 @@ static void differentiate_inputs(double B[2][INPUTS], const instant *now, const 
   }
 }
 
-static void differentiate(gradients *d, const bike_model *model, const perturbed *at) {
-  kernel_model m;
-  kernel_model_of(&m, model);
+static void differentiate(gradients *d, const kernel_model *m, const perturbed *at) {
   instant now;
   for (int j = 0; j < VARIABLES; j++) {
-    solve_perturbed(&now, &m, *at, j);
+    solve_perturbed(&now, m, *at, j);
     d->J[0][j] = derivative(now.acceleration.phi);
     d->J[1][j] = derivative(now.acceleration.kap);
-    energy e = energy_of(&now, &m, &at->in);
+    energy e = energy_of(&now, m, &at->in);
     d->E[j] = derivative(e.kinetic + e.potential);
   }
-  differentiate_inputs(d->B, &now, &m);
+  differentiate_inputs(d->B, &now, m);
 }
 
 int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *state,
@@ -83,9 +82,11 @@ int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *
   int code = bike_evaluate(&now, model, state, input);
   if (code) return code;
 
-  perturbed at = perturbed_state(state, input, now.beta_r);
+  kernel_model m;
+  kernel_model_of(&m, model);
+  perturbed at = perturbed_state(&m, state, input, now.beta_r);
   gradients d;
-  differentiate(&d, model, &at);
+  differentiate(&d, &m, &at);
   bike_linear linear = {0};
   linear.A[2] = linear.A[7] = 1; // phi' = phi', kappa' = kappa'
   for (int i = 0; i < 2; i++) {
@@ -117,7 +118,7 @@ static bool mirror_symmetric(const bike_model *m) {
 static void stiffness(double out[2], const kernel_model *m, double tilt, double speed, int which) {
   bike_state straight = {.speed = speed};
   bike_input hands_off = {0};
-  perturbed at = perturbed_state(&straight, &hands_off, tilt);
+  perturbed at = perturbed_state(m, &straight, &hands_off, tilt);
   instant now;
   solve_perturbed(&now, m, at, which);
   out[0] = -derivative(now.k.f[1]);

@@ -78,6 +78,7 @@ int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
                       .s_tilt = axes.s,
                       .c_tilt = axes.c,
                       .tilt_gain = upright.trail * axes.c / upright.wheelbase,
+                      .newton_scale = 1 / sqrt(2 * upright.wheelbase),
                       .over_R_r = 1 / bicycle->geometry.R_r,
                       .over_R_f = 1 / bicycle->geometry.R_f};
   model.reach = reach_of(&bicycle->geometry);

@@ -127,16 +127,16 @@ LANE_INLINE real without_slopes(real a) {
 // for a constant: the error of a step is quadratic in that of its start, so that the derivative of
 // a step from the root is that of the root. Slopes carried through the steps themselves would lag
 // one step behind the values, and cost three times as much.
-LANE_INLINE void solve_rear_angle(position *g, const kernel_geometry *L, start from) {
-  position root = {.s_phi = without_slopes(g->s_phi),
-                   .c_phi = without_slopes(g->c_phi),
-                   .s_kap = without_slopes(g->s_kap),
-                   .c_kap = without_slopes(g->c_kap)};
+LANE_INLINE void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
+  posture root = {.s_phi = without_slopes(g->s_phi),
+                 .c_phi = without_slopes(g->c_phi),
+                 .s_kap = without_slopes(g->s_kap),
+                 .c_kap = without_slopes(g->c_kap)};
   kernel_geometry lengths = {without_slopes(L->L_r), without_slopes(L->L_f), without_slopes(L->L_s),
                              without_slopes(L->R_r), without_slopes(L->R_f)};
-  start plain = {without_slopes(from.s), without_slopes(from.c)};
+  start plain = {without_slopes(from.s), without_slopes(from.c), without_slopes(from.r)};
   newton_rear_angle(NEWTON_STEPS, &root, &lengths, plain);
-  newton_rear_angle(1, g, L, (start){root.s_br, root.c_br});
+  newton_rear_angle(1, g, L, (start){root.s_br, root.c_br, real_of(1)});
   g->s_br.value = root.s_br.value;
   g->c_br.value = root.c_br.value;
   g->over_a.value = root.over_a.value;

@@ -10,14 +10,14 @@ static const double FIRST_STEP = 0.125;
 static const double SMALLEST_STEP = 1e-9;
 
 int rear_angle_continued(start *out, const bike_model *model, double phi, double kappa) {
-  start from = {model->s_tilt, model->c_tilt};
+  start from = begun(model, model->s_tilt, model->c_tilt);
   double reached = 0, step = FIRST_STEP;
   while (reached < 1) {
     double next = fmin(1, reached + step);
     position g;
     locate(&g, &model->geometry, from, next * phi, next * kappa);
-    if (rear_angle_found(&g, model)) {
-      from = (start){g.s_br, g.c_br};
+    if (rear_angle_found(root_checks_of(&g), model)) {
+      from = begun(model, g.s_br, g.c_br);
       reached = next;
     } else if ((step *= 0.5) < SMALLEST_STEP) {
       return BIKE_ERROR_GEOMETRY;

@@ -6,15 +6,15 @@
 #include "equations/number_double.h"
 
 // Whether a position solves (4) to rounding, on the branch that upright riding belongs to.
-static inline bool rear_angle_found(const position *g, const bike_model *model) {
+static inline bool rear_angle_found(root_checks g, const bike_model *model) {
   // four roundings of the terms of (4) together; over 3000 random bicycles, small wheels and long
   // frames among them, a converged root left at most two
   const double tolerance = 4 * 2.220446049250313e-16;
   // a wheel that lies flat has no contact point; within a nanoradian of it (4) is nothing but
   // rounding
   const double flat = 1e-9;
-  return fabs(g->residual) <= tolerance * model->reach && g->Q > 0 && g->c_br > 0 &&
-         g->c_kap > flat && g->c_psi > flat;
+  return fabs(g.residual) <= tolerance * model->reach && g.Q > 0 && g.c_br > 0 && g.c_kap > flat &&
+         g.c_psi > flat;
 }
 
 // Follows the root from upright to (phi, kappa) along a straight line. BIKE_ERROR_GEOMETRY where

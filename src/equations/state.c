@@ -4,11 +4,11 @@
 #include <bicycle/state.h>
 #include <stdatomic.h>
 
-#include "equations/state_instance.h"
+#include "equations/answers.h"
 
 static const bike_input HANDS_OFF = {0};
 
-static const state_functions *const instances[] = {
+static const state_evaluations *const instances[] = {
     [INSTRUCTIONS_BASELINE] = &state_baseline,
 #ifdef BICYCLE_X86_64_LEVELS
     [INSTRUCTIONS_V3] = &state_v3,
@@ -18,9 +18,9 @@ static const state_functions *const instances[] = {
 
 // Asked a hundred million times in a map: kept, and no more than a load. Threads that decide at
 // once decide the same.
-static const state_functions *chosen(void) {
-  static _Atomic(const state_functions *) kept;
-  const state_functions *known = atomic_load_explicit(&kept, memory_order_relaxed);
+static const state_evaluations *chosen(void) {
+  static _Atomic(const state_evaluations *) kept;
+  const state_evaluations *known = atomic_load_explicit(&kept, memory_order_relaxed);
   if (known) return known;
   known = instances[instruction_set_in_use()];
   atomic_store_explicit(&kept, known, memory_order_relaxed);
@@ -30,23 +30,23 @@ static const state_functions *chosen(void) {
 int bike_accelerate(bike_acceleration *out, const bike_model *model, const bike_state *state,
                     const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  return chosen()->accelerate(out, model, state, input ? input : &HANDS_OFF);
+  return answer_acceleration(out, chosen(), model, state, input ? input : &HANDS_OFF);
 }
 
 int bike_rates_of(bike_rates *out, const bike_model *model, const bike_state *state,
                   const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  return chosen()->rates_of(out, model, state, input ? input : &HANDS_OFF);
+  return answer_rates(out, chosen(), model, state, input ? input : &HANDS_OFF);
 }
 
 int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
                      double rider_offset) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  return chosen()->mass_matrix(out, model, state, rider_offset);
+  return answer_mass_matrix(out, chosen(), model, state, rider_offset);
 }
 
 int bike_evaluate(bike_snapshot *out, const bike_model *model, const bike_state *state,
                   const bike_input *input) {
   if (!out || !model || !state) return BIKE_ERROR_ARGUMENT;
-  return chosen()->evaluate(out, model, state, input ? input : &HANDS_OFF);
+  return answer_snapshot(out, chosen(), model, state, input ? input : &HANDS_OFF);
 }

@@ -24,11 +24,11 @@ int turn_rear_angle(double out[2], const bike_model *model, double lean, double 
   start from = guessed(model, steer, lean);
   position at;
   locate(&at, &model->geometry, from, steer, lean);
-  if (!rear_angle_found(&at, model)) {
+  if (!rear_angle_found(root_checks_of(&at), model)) {
     int code = rear_angle_continued(&from, model, steer, lean);
     if (code) return code;
     locate(&at, &model->geometry, from, steer, lean);
-    if (!rear_angle_found(&at, model)) return BIKE_ERROR_GEOMETRY;
+    if (!rear_angle_found(root_checks_of(&at), model)) return BIKE_ERROR_GEOMETRY;
   }
   // the yaw rate's denominator (13): where it vanishes the bicycle turns on the spot, and beyond
   // there is no way from riding
@@ -43,7 +43,7 @@ int turn_forces_at(turn_forces *out, const turn_bicycle *b, double lean, double 
   double rear[2];
   int code = turn_rear_angle(rear, b->model, lean, steer);
   if (code) return code;
-  start from = {rear[0], rear[1]};
+  start from = begun(b->model, rear[0], rear[1]);
   forces_at_rest(out->fall, b->model, from, steer, lean, offset, 0);
   // at straight riding the quotient is the limit: the forces of a steer too small to bend anything
   const double straight = 1e-100;

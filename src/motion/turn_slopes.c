@@ -51,9 +51,10 @@ static int columns(turn_slopes *slopes, const turn_bicycle *b, column_function *
   double rear[2];
   int code = turn_rear_angle(rear, b->model, at[BY_LEAN], at[BY_STEER]);
   if (code) return code;
-  turn_kernels k = {.from = {rear[0], rear[1]}, .held = held};
+  turn_kernels k = {.held = held};
   kernel_model_of(&k.heavy, b->model);
   kernel_model_of(&k.weightless, &b->weightless);
+  k.from = begun(&k.heavy, rear[0], rear[1]);
   for (int j = 0; j < TURN_COLUMNS; j++) {
     if (!slopes->wanted[j]) continue;
     for (int n = 0; n < TURN_COLUMNS; n++) k.at[n] = at[n];

@@ -4,14 +4,14 @@
 #ifndef BICYCLE_BENCH_NATIVE_H
 #define BICYCLE_BENCH_NATIVE_H
 
-#include "equations/state_instance.h"
+#include "equations/answers.h"
 
-extern const state_functions state_native;
+extern const state_evaluations state_native;
 
 static inline int native_accelerate(bike_acceleration *out, const bike_model *model,
                                     const bike_state *state) {
   static const bike_input HANDS_OFF = {0};
-  return state_native.accelerate(out, model, state, &HANDS_OFF);
+  return answer_acceleration(out, &state_native, model, state, &HANDS_OFF);
 }
 
 #endif

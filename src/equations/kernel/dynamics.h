@@ -12,7 +12,7 @@
 #ifndef BICYCLE_KERNEL_DYNAMICS_H
 #define BICYCLE_KERNEL_DYNAMICS_H
 
-// What acts from outside, and the rider's prescribed motion.
+// What acts from outside, and the rider's prescribed sideways motion.
 typedef struct load {
   real steer_torque, roll_torque;
   real w, w1, w2; // rider's offset and its derivatives
@@ -55,25 +55,12 @@ typedef struct kane {
   real pivot[3];         // of the elimination of v, kap, phi
 } kane;
 
-// Rear body from the rear hub in frame axes (N, p, S), with the rider moved by w to the right.
-static inline void rear_body(tensor *J, vec *moment, const kernel_model *m, real w) {
-  const real *r = m->rider_place;
-  real mw = m->rider_mass * w, along = mw * (2.0 * r[0] + w);
-  *J = tensor_of(m->rear.inertia);
-  J->yy += along;
-  J->zz += along;
-  J->xy -= mw * r[1];
-  J->xz -= mw * r[2];
-  *moment = scaled(m->rear.mass, vec_of(m->rear.centre));
-  moment->x += mw;
-}
-
-static inline void place_masses(masses *b, const kernel_model *m, const position *g, real w) {
+// The rider at rider offset zero.
+static inline void place_masses(masses *b, const kernel_model *m, const position *g) {
   const kernel_geometry *L = &m->geometry;
   real s = g->s_br, c = g->c_br;
-  vec rear_moment, front_moment;
-  rear_body(&b->J, &rear_moment, m, w);
-  b->J = tensor_about_x(b->J, s, c);
+  vec rear_moment = scaled(m->rear.mass, vec_of(m->rear.centre)), front_moment;
+  b->J = tensor_about_x(tensor_of(m->rear.inertia), s, c);
   b->J_f = tensor_about_z(tensor_of(m->front.inertia), g->s_phi, g->c_phi);
   b->J_f = tensor_about_x(b->J_f, s, c);
   front_moment = turned_about_z(scaled(m->front.mass, vec_of(m->front.centre)), g->s_phi, g->c_phi);
@@ -83,8 +70,7 @@ static inline void place_masses(masses *b, const kernel_model *m, const position
   b->axis = (vec){nought, -s, c};
   b->axle_f = (vec){g->c_phi, g->s_phi * c, g->s_phi * s};
   b->foot = (vec){nought, L->L_r * c + L->L_s * s, L->L_r * s - L->L_s * c};
-  b->rider =
-      turned_about_x((vec){m->rider_place[0] + w, m->rider_place[1], m->rider_place[2]}, s, c);
+  b->rider = turned_about_x(vec_of(m->rider_place), s, c);
   b->mass = m->rear.mass + m->front.mass;
   b->moment =
       add(add(turned_about_x(rear_moment, s, c), front_moment), scaled(m->front.mass, b->foot));
@@ -92,6 +78,17 @@ static inline void place_masses(masses *b, const kernel_model *m, const position
   b->p_S = cross(b->axis, front_moment);
   b->h_S = times(&b->J_f, b->axis);
   b->J_S = dot(b->axis, b->h_S);
+}
+
+// Moves the rider by w to the right.
+static inline void move_rider(masses *b, const kernel_model *m, real w) {
+  real mw = m->rider_mass * w, along = mw * (2.0 * b->rider.x + w);
+  b->J.yy += along;
+  b->J.zz += along;
+  b->J.xy -= mw * b->rider.y;
+  b->J.xz -= mw * b->rider.z;
+  b->moment.x += mw;
+  b->rider.x += w;
 }
 
 // Inertia between the five plain motions.
@@ -184,8 +181,8 @@ static inline void push_rider(wrench *n, const masses *b, const kernel_model *m,
   n->torque = add(n->torque, cross(b->rider, push));
 }
 
-// Force and torque needed for `rest`, the wheels' spin-up left out.
-static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, const load *in) {
+// Force and torque needed for `rest`, the wheels' spin-up and what moves the rider left out.
+static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q) {
   const masses *b = &k->body;
   vec w = k->velocity.turn, a = k->rest.hub, al = k->rest.turn;
   wrench *n = &k->need;
@@ -203,9 +200,13 @@ static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q, 
   n->torque.z -= w.y * H_r;
   n->torque = add(n->torque, cross(add(w, scaled(q->u.phi, b->axis)), H_f));
   n->steer += dot(across, H_f);
-  // the rider relative to the frame: 2 w' w x e_N + w'' e_N
+}
+
+// The rider relative to the frame at u' = 0: 2 w' w x e_N + w'' e_N.
+static inline void sway_rider(kane *k, const kernel_model *m, const load *in) {
+  vec w = k->velocity.turn;
   k->rider_rest = (vec){in->w2, 2.0 * in->w1 * w.z, -2.0 * in->w1 * w.y};
-  push_rider(n, b, m, k->rider_rest);
+  push_rider(&k->need, &k->body, m, k->rider_rest);
 }
 
 // A wrench along the motions of phi', kappa', v.
@@ -216,20 +217,24 @@ static inline form along_motions(const wrench *n, const position *g, const rate_
                 q->yaw.v * Y + X};
 }
 
-// f: torques from outside less what the accelerations at u' = 0 need along each motion. beta_r''
-// and Omega' at u' = 0, which are known last, are motions along pitch and yaw: their momenta are at
+// f: the damper's torque less what the accelerations at u' = 0 need along each motion. beta_r'' and
+// Omega' at u' = 0, which are known last, are motions along pitch and yaw: their momenta are at
 // hand.
 static inline void forces_along(kane *k, const kernel_model *m, const position *g,
-                                const rate_forms *q, const rates *r, const bias *b,
-                                const load *in) {
+                                const rate_forms *q, const rates *r, const bias *b) {
   form need = along_motions(&k->need, g, q, m->geometry.R_r);
   real up_r = m->rear.spin_inertia * b->spin_r, up_f = m->front.spin_inertia * b->spin_f;
   form P = k->along_B, S = k->along_Y;
-  k->f[0] = in->steer_torque - m->steer_damping * r->u.phi - need.phi -
+  k->f[0] = -m->steer_damping * r->u.phi - need.phi -
             (P.phi * b->br + S.phi * b->yaw + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
-  k->f[1] = in->roll_torque - need.kap -
-            (P.kap * b->br + S.kap * b->yaw + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
+  k->f[1] =
+      -need.kap - (P.kap * b->br + S.kap * b->yaw + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
   k->f[2] = -need.v - (P.v * b->br + S.v * b->yaw + q->spin_r.v * up_r + q->spin_f.v * up_f);
+}
+
+static inline void add_torques(kane *k, const load *in) {
+  k->f[0] += in->steer_torque;
+  k->f[1] += in->roll_torque;
 }
 
 // u' = M^-1 f by L D L^T without pivoting, v first: the heaviest entry. M is ready long before f.

@@ -21,6 +21,7 @@ typedef struct kernel_model {
   kernel_geometry geometry;
   real gravity, steer_damping;
   real s_tilt, c_tilt, tilt_gain;
+  real newton_scale;
   real over_R_r, over_R_f;
   kernel_body rear, front;
   real rider_mass;
@@ -43,6 +44,7 @@ static inline void kernel_model_of(kernel_model *out, const bike_model *m) {
   out->s_tilt = real_of(m->s_tilt);
   out->c_tilt = real_of(m->c_tilt);
   out->tilt_gain = real_of(m->tilt_gain);
+  out->newton_scale = real_of(m->newton_scale);
   out->over_R_r = real_of(m->over_R_r);
   out->over_R_f = real_of(m->over_R_f);
   kernel_body_of(&out->rear, &m->rear);

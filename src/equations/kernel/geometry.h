@@ -18,9 +18,16 @@ typedef struct position {
   real residual; // of (4) times cos kappa cos beta_r, m
 } position;
 
+// Sines and cosines that the rest of a position follows from, beta_r's found.
+typedef struct posture {
+  real s_phi, c_phi, s_kap, c_kap;
+  real s_br, c_br;
+  real over_a; // 1/(cos kappa cos beta_r)
+} posture;
+
 // Where Newton's method for beta_r starts.
 typedef struct start {
-  real s, c; // sin, cos beta_r
+  real s, c, r; // r sin beta_r, r cos beta_r, r
 } start;
 
 // Within 60 deg of steer and 45 deg of lean (penny-farthing 45, 35) three steps from the guess
@@ -29,31 +36,38 @@ typedef struct start {
 enum { NEWTON_STEPS = 3 };
 
 // The start near upright, of second order: dbeta_r = (T_f cos br/Q) ((kap - phi sin br) dphi +
-// phi dkap) there. (s, c) need not be normalised.
+// phi dkap) there, as the rotation by 2 atan(dbeta_r/2).
 static inline start guessed(const kernel_model *m, real phi, real kappa) {
-  real d = m->tilt_gain * phi * (kappa - 0.5 * m->s_tilt * phi);
-  return (start){m->s_tilt + m->c_tilt * d, m->c_tilt - m->s_tilt * d};
+  real half = 0.5 * m->tilt_gain * phi * (kappa - 0.5 * m->s_tilt * phi);
+  real r = m->newton_scale, across = r * half, square = across * half;
+  real along = r - square, turn = across + across;
+  return (start){m->s_tilt * along + m->c_tilt * turn, m->c_tilt * along - m->s_tilt * turn,
+                 r + square};
+}
+
+// The start at a known angle.
+static inline start begun(const kernel_model *m, real s_br, real c_br) {
+  real r = m->newton_scale;
+  return (start){r * s_br, r * c_br, r};
 }
 
 // Solves (4) with (1) put in, times cos kappa cos beta_r:
 //   G = L_r cos kap sin br + R_r cos kap + L_f tau - R_f cos psi - L_s cos kap cos br = 0.
-// (sin br, cos br) is carried as (s, c)/r. A Newton step delta = -G/G' = -p/q becomes the rotation
-// by 2 atan(-p/2q), the same to third order; r keeps it a rotation without waiting for a division
-// (`even` only keeps r from growing, and is ready before the square root is).
-static inline void solve_rear_angle(position *g, const kernel_geometry *L, start from) {
-  real s = from.s, c = from.c, r = real_sqrt(s * s + c * c);
+// (sin br, cos br) is carried as (s, c)/r. A Newton step delta = -G/G' = -2p/q becomes the rotation
+// by 2 atan(-p/q), the same to third order, without a division: r grows by q^2 + p^2. As q is
+// 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) where it starts there.
+static inline void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
+  real s = from.s, c = from.c, r = from.r;
   real across = g->s_kap * g->s_phi;
   for (int step = 0; step < NEWTON_STEPS; step++) {
-    real even = 1.0 / (r * r);
     real cs = g->c_kap * s, a = g->c_kap * c;
     real tau = cs * g->c_phi + across * r;
     real c_psi = real_sqrt(tau * tau + a * a);
     // G' = (L_r + L_f cos phi) a + L_s cs - R_f a (tau cos phi - cs)/cos psi
     real part = L->L_r * cs + L->R_r * g->c_kap * r + L->L_f * tau - L->L_s * a;
     real slope = (L->L_r + L->L_f * g->c_phi) * a + L->L_s * cs;
-    real even_psi = even * c_psi;
-    real p = (part - L->R_f * c_psi) * even_psi;
-    real q = 2.0 * (slope * even_psi - L->R_f * a * (tau * g->c_phi - cs) * even);
+    real p = (part - L->R_f * c_psi) * c_psi;
+    real q = 2.0 * (slope * c_psi - L->R_f * a * (tau * g->c_phi - cs));
     real along = q * q - p * p, turn = -2.0 * p * q;
     real s_new = along * s + turn * c;
     c = along * c - turn * s;
@@ -66,11 +80,21 @@ static inline void solve_rear_angle(position *g, const kernel_geometry *L, start
   g->over_a = r * over_a;
 }
 
-static inline void locate(position *g, const kernel_geometry *L, start from, real phi, real kappa) {
-  real_sincos(phi, &g->s_phi, &g->c_phi);
-  real_sincos(kappa, &g->s_kap, &g->c_kap);
-  solve_rear_angle(g, L, from);
+static inline void find_posture(posture *out, const kernel_geometry *L, start from, real phi,
+                               real kappa) {
+  real_sincos(phi, &out->s_phi, &out->c_phi);
+  real_sincos(kappa, &out->s_kap, &out->c_kap);
+  solve_rear_angle(out, L, from);
+}
 
+static inline void place(position *g, const kernel_geometry *L, const posture *at) {
+  g->s_phi = at->s_phi;
+  g->c_phi = at->c_phi;
+  g->s_kap = at->s_kap;
+  g->c_kap = at->c_kap;
+  g->s_br = at->s_br;
+  g->c_br = at->c_br;
+  g->over_a = at->over_a;
   // (2), and (1) times cos kappa cos beta_r
   real cs = g->c_kap * g->s_br;
   g->s_psi = g->c_phi * g->s_kap - g->s_phi * cs;
@@ -100,6 +124,21 @@ static inline void locate(position *g, const kernel_geometry *L, start from, rea
   // (4) at the root found
   g->residual =
       L->L_r * cs + L->R_r * g->c_kap + L->L_f * g->tau - L->R_f * g->c_psi - L->L_s * g->a;
+}
+
+// What tells whether Newton's method has found a root of (4), and which.
+typedef struct root_checks {
+  real residual, Q, c_br, c_kap, c_psi; // members of `position`
+} root_checks;
+
+static inline root_checks root_checks_of(const position *g) {
+  return (root_checks){g->residual, g->Q, g->c_br, g->c_kap, g->c_psi};
+}
+
+static inline void locate(position *g, const kernel_geometry *L, start from, real phi, real kappa) {
+  posture at;
+  find_posture(&at, L, from, phi, kappa);
+  place(g, L, &at);
 }
 
 #endif

@@ -3,8 +3,8 @@
 //   real                          double, double complex, or a GCC vector of doubles
 //   real_sqrt, real_sincos        on it
 //   kernel_model, kernel_geometry bike_model and bike_geometry with members of type real
-// and gets `solve_instant`. No function here compares, branches on a value, or assigns a plain
-// number to a `real`, so that derivatives by complex step are exact and lanes stay independent.
+// and gets `solve_instant`. No function here compares or branches on a `real`, or assigns a plain
+// number to one, so that derivatives by complex step are exact and lanes stay independent.
 #ifndef BICYCLE_KERNEL_H
 #define BICYCLE_KERNEL_H
 
@@ -26,7 +26,22 @@ typedef struct instant {
   form acceleration; // phi'', kappa'', v'
 } instant;
 
-// What follows from a position, which `locate` has put into out->at.
+// What tells whether the equations hold at an instant.
+typedef struct checks {
+  root_checks root;
+  real D;                             // as in `position`
+  real pivot_v, pivot_kap, pivot_phi; // as in `kane`
+  real diagonal_kap, diagonal_phi;    // of M
+} checks;
+
+static inline checks checks_of(const instant *now) {
+  const kane *k = &now->k;
+  return (checks){
+      root_checks_of(&now->at), now->at.D, k->pivot[0], k->pivot[1], k->pivot[2], k->M[1], k->M[0]};
+}
+
+// What follows from a position, which out->at holds. Without a load, NULL, the bicycle rides hands
+// off and the rider sits still in the middle; whether there is one is known when compiling.
 static inline void solve_located(instant *out, const kernel_model *m, form u, const load *in) {
   const kernel_geometry *L = &m->geometry;
   rate_forms_of(&out->forms, &out->at, m);
@@ -34,12 +49,15 @@ static inline void solve_located(instant *out, const kernel_model *m, form u, co
   bias_of(&out->rest, &out->at, m, &out->rate);
   kane *k = &out->k;
   inertia G;
-  place_masses(&k->body, m, &out->at, in->w);
+  place_masses(&k->body, m, &out->at);
+  if (in) move_rider(&k->body, m, in->w);
   inertia_of(&G, &k->body, &out->at, L->R_r);
   mass_matrix(k, &G, &out->forms, m->rear.spin_inertia, m->front.spin_inertia);
   move_frame(k, m, &out->at, &out->rate);
-  need_at_rest(k, m, &out->rate, in);
-  forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest, in);
+  need_at_rest(k, m, &out->rate);
+  if (in) sway_rider(k, m, in);
+  forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest);
+  if (in) add_torques(k, in);
   out->acceleration = solved(k);
 }
 

@@ -35,11 +35,13 @@ typedef struct jacobian_points {
   jacobian_row at[JACOBIAN_ARGUMENTS];
 } jacobian_points;
 
-// What tells whether the equations hold at a point: members of `position` and `kane`.
+// The kernel's `checks`, row by row.
 typedef struct jacobian_checks {
-  jacobian_row residual, Q, D, c_br, c_kap, c_psi;
-  jacobian_row pivot[3], diagonal[2]; // diagonal: M phi phi, M kap kap
+  jacobian_row residual, Q, c_br, c_kap, c_psi, D;
+  jacobian_row pivot_v, pivot_kap, pivot_phi, diagonal_kap, diagonal_phi;
 } jacobian_checks;
+
+enum { JACOBIAN_CHECKS = sizeof(jacobian_checks) / sizeof(jacobian_row) };
 
 typedef struct jacobian {
   jacobian_row acceleration[JACOBIAN_ACCELERATIONS];               // rad/s^2, rad/s^2, m/s^2

@@ -22,19 +22,13 @@ LANE_INLINE real argument(const jacobian_points *points, int first, int which) {
   return which < SLOPES ? tangent_variable(x, which) : tangent_constant(x);
 }
 
+_Static_assert(sizeof(checks) == JACOBIAN_CHECKS * sizeof(real), "a row for each");
+
 LANE_INLINE void put_checks(jacobian_checks *out, int first, const instant *now) {
-  const position *g = &now->at;
-  put(out->residual, first, g->residual.value);
-  put(out->Q, first, g->Q.value);
-  put(out->D, first, g->D.value);
-  put(out->c_br, first, g->c_br.value);
-  put(out->c_kap, first, g->c_kap.value);
-  put(out->c_psi, first, g->c_psi.value);
-  put(out->pivot[0], first, now->k.pivot[0].value);
-  put(out->pivot[1], first, now->k.pivot[1].value);
-  put(out->pivot[2], first, now->k.pivot[2].value);
-  put(out->diagonal[0], first, now->k.M[0].value);
-  put(out->diagonal[1], first, now->k.M[1].value);
+  checks all = checks_of(now);
+  jacobian_row *row = (jacobian_row *)out;
+  const real *each = (const real *)&all;
+  for (int i = 0; i < JACOBIAN_CHECKS; i++) put(row[i], first, each[i].value);
 }
 
 LANE_INLINE void put_energy(jacobian *out, int first, energy e) {

@@ -129,6 +129,13 @@ class Lowering:
     def on_Return(self, node):
         node.expr = self.expected(node.expr, self.result)
 
+    def on_If(self, node):
+        """`if (pointer)`: whether there is something is known when compiling."""
+        node.cond, kind = self.value(node.cond)
+        if kind[0] != "pointer" or node.iffalse is not None:
+            refuse(node, "an if on something else than a pointer, or with an else")
+        self.statement(node.iftrue)
+
     def on_For(self, node):
         self.scopes.append({})
         for counter in node.init.decls:

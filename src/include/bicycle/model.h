@@ -24,6 +24,7 @@ typedef struct bike_model {
   double tilt;            // rad     upright beta_r
   double s_tilt, c_tilt;  //         its sine and cosine
   double tilt_gain;       //         beta_r = tilt + tilt_gain phi (kappa - s_tilt phi/2) + ...
+  double newton_scale;    // m^-1/2  1/sqrt(2 wheelbase): size of the numbers that find beta_r
   double over_R_r;        // 1/m     1/R_r
   double over_R_f;        // 1/m     1/R_f
   double reach;           // m       |L_r| + |L_f| + |L_s| + R_r + R_f: size of the terms of (4)

@@ -4,12 +4,12 @@
 #include "equations/number_double.h"
 
 void bench_counted_kernel(double out[3], const bike_model *m, double phi, double kappa,
-                          const form *u, const load *in);
+                          const form *u);
 
 void bench_counted_kernel(double out[3], const bike_model *m, double phi, double kappa,
-                          const form *u, const load *in) {
+                          const form *u) {
   instant now;
-  solve_instant(&now, m, guessed(m, phi, kappa), phi, kappa, *u, in);
+  solve_instant(&now, m, guessed(m, phi, kappa), phi, kappa, *u, NULL);
   out[0] = now.acceleration.phi;
   out[1] = now.acceleration.kap;
   out[2] = now.acceleration.v;

@@ -104,7 +104,7 @@ static void compare(double got, double want, double scale) {
 
 // A diagonal entry of M and what is left of it as a pivot.
 static double amplification(const jacobian_checks *c, int i) {
-  return fmax(c->diagonal[0][i] / c->pivot[2][i], c->diagonal[1][i] / c->pivot[1][i]);
+  return fmax(c->diagonal_phi[i] / c->pivot_phi[i], c->diagonal_kap[i] / c->pivot_kap[i]);
 }
 
 static void check_jacobian(const jacobian *got, const expected *want, int i) {
