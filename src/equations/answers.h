@@ -43,14 +43,13 @@ static inline int asked(question *q, const bike_model *model, const bike_state *
 
 // From the guess near upright, and where that leads to no root from a start found by continuation.
 static inline int answered(evaluation *evaluate, void *out, const question *q) {
-  double steer = q->state->steer, lean = q->state->lean;
-  checks c = evaluate(out, q, guessed(q->model, steer, lean));
+  checks c = evaluate(out, q, NULL);
   int code = judged(&c, q->model);
   if (code != BIKE_ERROR_GEOMETRY) return code;
   start from;
-  code = rear_angle_continued(&from, q->model, steer, lean);
+  code = rear_angle_continued(&from, q->model, q->state->steer, q->state->lean);
   if (code) return code;
-  c = evaluate(out, q, from);
+  c = evaluate(out, q, &from);
   return judged(&c, q->model);
 }
 

@@ -33,6 +33,14 @@ typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))))
 #define LANE_INLINE static inline __attribute__((always_inline))
 #endif
 
+// Has the compiler take a variable for one that it knows nothing of; costs nothing. Only so does it
+// fuse the same products in code compiled in one piece and in two: x86 alone has this promise.
+#ifdef __x86_64__
+#define ANEW(x) __asm__("" : "+v"(x))
+#else
+#define ANEW(x) (void)(x)
+#endif
+
 LANE_INLINE lanes lanes_of(double x) {
   return x - (lanes){0};
 }

@@ -14,14 +14,14 @@ enum { PHI, KAPPA, PHI_RATE, KAPPA_RATE, SPEED, VARIABLES };
 enum { INPUTS = 3 };
 
 typedef struct perturbed {
-  start from;
+  real s_br, c_br;
   real x[VARIABLES];
   load in;
 } perturbed;
 
-static perturbed perturbed_state(const kernel_model *m, const bike_state *s, const bike_input *in,
-                                 double beta_r) {
-  return (perturbed){.from = begun(m, sin(beta_r), cos(beta_r)),
+static perturbed perturbed_state(const bike_state *s, const bike_input *in, double beta_r) {
+  return (perturbed){.s_br = sin(beta_r),
+                     .c_br = cos(beta_r),
                      .x = {s->steer, s->lean, s->steer_rate, s->lean_rate, s->speed},
                      .in = {in->steer_torque, in->roll_torque, in->rider_offset, in->rider_velocity,
                             in->rider_acceleration}};
@@ -32,7 +32,7 @@ static void solve_perturbed(instant *now, const kernel_model *model, perturbed a
   at.x[which] += I * STEP;
   const real *x = at.x;
   form u = {x[PHI_RATE], x[KAPPA_RATE], x[SPEED]};
-  solve_instant(now, model, at.from, x[PHI], x[KAPPA], u, &at.in);
+  solve_known(now, model, at.s_br, at.c_br, x[PHI], x[KAPPA], u, &at.in);
 }
 
 static double derivative(real value) {
@@ -84,7 +84,7 @@ int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *
 
   kernel_model m;
   kernel_model_of(&m, model);
-  perturbed at = perturbed_state(&m, state, input, now.beta_r);
+  perturbed at = perturbed_state(state, input, now.beta_r);
   gradients d;
   differentiate(&d, &m, &at);
   bike_linear linear = {0};
@@ -118,7 +118,7 @@ static bool mirror_symmetric(const bike_model *m) {
 static void stiffness(double out[2], const kernel_model *m, double tilt, double speed, int which) {
   bike_state straight = {.speed = speed};
   bike_input hands_off = {0};
-  perturbed at = perturbed_state(m, &straight, &hands_off, tilt);
+  perturbed at = perturbed_state(&straight, &hands_off, tilt);
   instant now;
   solve_perturbed(&now, m, at, which);
   out[0] = -derivative(now.k.f[1]);

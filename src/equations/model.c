@@ -42,11 +42,11 @@ static void lump(bike_body *body, const bike_bicycle *bicycle, const upright_axe
     double r[3];
     upright_place(r, axes, part->position, front);
     body->mass += part->mass;
-    for (int k = 0; k < 3; k++) body->centre[k] += part->mass * r[k];
+    for (int k = 0; k < 3; k++) body->moment[k] += part->mass * r[k];
     add_steiner(body->inertia, part->mass, r);
     add_tensor(body, part, axes);
   }
-  for (int k = 0; k < 3; k++) body->centre[k] /= body->mass;
+  for (int k = 0; k < 3; k++) body->centre[k] = body->moment[k] / body->mass;
 }
 
 static void find_rider(bike_model *model, const bike_bicycle *bicycle, const upright_axes *axes) {

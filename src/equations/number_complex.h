@@ -25,6 +25,10 @@ static inline void real_sincos(real z, real *s, real *c) {
   *c = CMPLX(cosine, -sine * cimag(z));
 }
 
+static inline real real_anew(real z) {
+  return z;
+}
+
 #include "kernel/generic_model.h"
 
 #include "kernel/kernel.h"

@@ -20,6 +20,11 @@ static inline void real_sincos(double x, double *s, double *c) {
   one_sincos(x, s, c);
 }
 
+static inline double real_anew(double x) {
+  ANEW(x);
+  return x;
+}
+
 #include "kernel/kernel.h"
 
 #include "kernel/forces.h"

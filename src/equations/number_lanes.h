@@ -21,6 +21,11 @@ static inline void real_sincos(real x, real *s, real *c) {
   lanes_sincos(x, s, c);
 }
 
+static inline real real_anew(real x) {
+  ANEW(x);
+  return x;
+}
+
 // Bit i: lane i of the mask is set.
 static inline unsigned lanes_bits(lanes_mask mask) {
 #if defined __AVX512DQ__ && LANES == 8

@@ -87,7 +87,13 @@ LANE_INLINE real tangent_div(real a, real b) {
   return r;
 }
 
-// k a and k/a for a plain number k.
+// k - a, k a and k/a for a plain number k.
+LANE_INLINE real tangent_from(double k, real a) {
+  real r = {.value = k - a.value};
+  EACH_SLOPE(r.slope[j] = -a.slope[j])
+  return r;
+}
+
 LANE_INLINE real tangent_scale(double k, real a) {
   real r = {.value = k * a.value};
   EACH_SLOPE(r.slope[j] = k * a.slope[j])
@@ -117,21 +123,24 @@ LANE_INLINE void real_sincos(real a, real *s, real *c) {
   EACH_SLOPE(s->slope[j] = cosine * a.slope[j]; c->slope[j] = -sine * a.slope[j])
 }
 
+LANE_INLINE real real_anew(real a) {
+  return a;
+}
+
 #include "kernel_tangent.h"
 
 LANE_INLINE real without_slopes(real a) {
   return tangent_constant(a.value);
 }
 
-// Newton's steps on the values alone, then the slopes of one more step from a root that is taken
-// for a constant: the error of a step is quadratic in that of its start, so that the derivative of
-// a step from the root is that of the root. Slopes carried through the steps themselves would lag
-// one step behind the values, and cost three times as much.
+// Newton's steps on the values alone, then the slopes of one more step from the root (locate_known
+// says why). Slopes carried through the steps themselves would lag one step behind the values, and
+// cost three times as much.
 LANE_INLINE void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
   posture root = {.s_phi = without_slopes(g->s_phi),
-                 .c_phi = without_slopes(g->c_phi),
-                 .s_kap = without_slopes(g->s_kap),
-                 .c_kap = without_slopes(g->c_kap)};
+                  .c_phi = without_slopes(g->c_phi),
+                  .s_kap = without_slopes(g->s_kap),
+                  .c_kap = without_slopes(g->c_kap)};
   kernel_geometry lengths = {without_slopes(L->L_r), without_slopes(L->L_f), without_slopes(L->L_s),
                              without_slopes(L->R_r), without_slopes(L->R_f)};
   start plain = {without_slopes(from.s), without_slopes(from.c), without_slopes(from.r)};

@@ -16,9 +16,10 @@ static form speeds_of(const bike_state *s) {
   return (form){s->steer_rate, s->lean_rate, s->speed};
 }
 
-static inline void solve(instant *now, const question *q, start from, const load *in) {
+static inline void solve(instant *now, const question *q, const start *from, const load *in) {
   const bike_state *s = q->state;
-  solve_instant(now, q->model, from, s->steer, s->lean, speeds_of(s), in);
+  start begin = from ? *from : guessed(q->model, s->steer, s->lean);
+  solve_instant(now, q->model, begin, s->steer, s->lean, speeds_of(s), in);
 }
 
 static bike_acceleration named(form a) {
@@ -43,24 +44,26 @@ static double power_of(const instant *now, const bike_model *m, const load *in) 
 
 //---------------------------------- accelerations -------------------------------------------------
 
-static inline checks acceleration_at(void *out, const question *q, start from, const load *in) {
+static inline checks acceleration_at(void *out, const question *q, const start *from,
+                                     const load *in) {
   instant now;
   solve(&now, q, from, in);
   *(bike_acceleration *)out = named(now.acceleration);
   return checks_of(&now);
 }
 
-EVALUATION checks free_acceleration(void *out, const question *q, start from) {
+EVALUATION checks free_acceleration(void *out, const question *q, const start *from) {
   return acceleration_at(out, q, from, NULL);
 }
 
-EVALUATION checks loaded_acceleration(void *out, const question *q, start from) {
+EVALUATION checks loaded_acceleration(void *out, const question *q, const start *from) {
   return acceleration_at(out, q, from, &q->in);
 }
 
 //---------------------------------- rates ---------------------------------------------------------
 
-static inline checks rates_at_state(void *out, const question *q, start from, const load *in) {
+static inline checks rates_at_state(void *out, const question *q, const start *from,
+                                    const load *in) {
   instant now;
   solve(&now, q, from, in);
   *(bike_rates *)out = (bike_rates){.acceleration = named(now.acceleration),
@@ -71,17 +74,17 @@ static inline checks rates_at_state(void *out, const question *q, start from, co
   return checks_of(&now);
 }
 
-EVALUATION checks free_rates(void *out, const question *q, start from) {
+EVALUATION checks free_rates(void *out, const question *q, const start *from) {
   return rates_at_state(out, q, from, NULL);
 }
 
-EVALUATION checks loaded_rates(void *out, const question *q, start from) {
+EVALUATION checks loaded_rates(void *out, const question *q, const start *from) {
   return rates_at_state(out, q, from, &q->in);
 }
 
 //---------------------------------- mass matrix ---------------------------------------------------
 
-EVALUATION checks mass_matrix_at(void *out, const question *q, start from) {
+EVALUATION checks mass_matrix_at(void *out, const question *q, const start *from) {
   instant now;
   solve(&now, q, from, &q->in);
   const double *M = now.k.M; // phi phi, kap kap, v v, phi kap, phi v, kap v
@@ -118,7 +121,7 @@ static void put_rates(bike_snapshot *out, const instant *now, const bike_model *
   const masses *body = &now->k.body;
   vec w = now->k.velocity.turn, al = accelerated(now, m).turn;
   double fork = dot(al, body->axle_f) + now->rate.u.phi * dot(w, cross(body->axis, body->axle_f));
-  out->rear_wheel_acceleration = al.x - spin_up_rear(now);
+  out->rear_wheel_acceleration = al.x - spin_up_rear(now, m);
   out->front_wheel_acceleration = fork - spin_up_front(now);
 }
 
@@ -128,7 +131,7 @@ static void put_force(double out[3], vec force) {
   out[2] = force.z;
 }
 
-EVALUATION checks snapshot_at(void *out, const question *q, start from) {
+EVALUATION checks snapshot_at(void *out, const question *q, const start *from) {
   instant now;
   solve(&now, q, from, &q->in);
   bike_snapshot *is = out;

@@ -14,9 +14,9 @@ typedef struct question {
   load in;
 } question;
 
-// Fills `out`, of the type beside it below, from a start of Newton's method. Means something only
-// where the checks hold and the numbers are finite.
-typedef checks evaluation(void *out, const question *q, start from);
+// Fills `out`, of the type beside it below, from a start of Newton's method, NULL: from the guess
+// near upright. Means something only where the checks hold and the numbers are finite.
+typedef checks evaluation(void *out, const question *q, const start *from);
 
 typedef struct state_evaluations {
   evaluation *free_acceleration, *loaded_acceleration; // bike_acceleration; free: hands off

@@ -43,12 +43,11 @@ int turn_forces_at(turn_forces *out, const turn_bicycle *b, double lean, double 
   double rear[2];
   int code = turn_rear_angle(rear, b->model, lean, steer);
   if (code) return code;
-  start from = begun(b->model, rear[0], rear[1]);
-  forces_at_rest(out->fall, b->model, from, steer, lean, offset, 0);
+  forces_at_rest(out->fall, b->model, rear, steer, lean, offset, 0);
   // at straight riding the quotient is the limit: the forces of a steer too small to bend anything
   const double straight = 1e-100;
   double phi = fabs(steer) > straight ? steer : straight;
-  forces_at_rest(out->sweep, &b->weightless, from, phi, lean, offset, 1);
+  forces_at_rest(out->sweep, &b->weightless, rear, phi, lean, offset, 1);
   out->fall[TURN_STEER_ROW] += b->torque;
   for (int i = 0; i < TURN_ROWS; i++) {
     out->fall[i] *= b->per_inertia[i];

@@ -5,13 +5,14 @@
 #define BICYCLE_MOTION_TURN_KERNEL_H
 
 // Kane's generalised forces at rest in lean and steer, (steer, lean); what they need to vanish.
-static inline void forces_at_rest(real out[2], const kernel_model *model, start from, real phi,
-                                  real kappa, real w, real v) {
+// `rear`: sin, cos of beta_r.
+static inline void forces_at_rest(real out[2], const kernel_model *model, const double rear[2],
+                                  real phi, real kappa, real w, real v) {
   real nought = w - w;
   load in = {nought, nought, w, nought, nought};
   form u = {nought, nought, v};
   instant now;
-  solve_instant(&now, model, from, phi, kappa, u, &in);
+  solve_known(&now, model, rear[0], rear[1], phi, kappa, u, &in);
   out[0] = now.k.f[0];
   out[1] = now.k.f[1];
 }

@@ -15,7 +15,7 @@ static const double SMALLEST_STEER = 1e-8;
 // A place, and what stands there.
 typedef struct turn_kernels {
   kernel_model heavy, weightless;
-  start from;
+  double rear[2];        // sin, cos of beta_r
   real at[TURN_COLUMNS]; // lean, steer, offset; one of them perturbed
   double held;           // v^2 or v^2 sin(steer)
 } turn_kernels;
@@ -24,7 +24,7 @@ typedef void column_function(real out[TURN_ROWS], const turn_kernels *k);
 
 static void forces(real out[TURN_ROWS], const turn_kernels *k, const kernel_model *model,
                    real steer, double speed) {
-  forces_at_rest(out, model, k->from, steer, k->at[BY_LEAN], k->at[BY_OFFSET], speed);
+  forces_at_rest(out, model, k->rear, steer, k->at[BY_LEAN], k->at[BY_OFFSET], speed);
 }
 
 static void at_speed(real out[TURN_ROWS], const turn_kernels *k) {
@@ -48,13 +48,11 @@ static void at_swept(real out[TURN_ROWS], const turn_kernels *k) {
 
 static int columns(turn_slopes *slopes, const turn_bicycle *b, column_function *function,
                    const double at[TURN_COLUMNS], double held) {
-  double rear[2];
-  int code = turn_rear_angle(rear, b->model, at[BY_LEAN], at[BY_STEER]);
-  if (code) return code;
   turn_kernels k = {.held = held};
+  int code = turn_rear_angle(k.rear, b->model, at[BY_LEAN], at[BY_STEER]);
+  if (code) return code;
   kernel_model_of(&k.heavy, b->model);
   kernel_model_of(&k.weightless, &b->weightless);
-  k.from = begun(&k.heavy, rear[0], rear[1]);
   for (int j = 0; j < TURN_COLUMNS; j++) {
     if (!slopes->wanted[j]) continue;
     for (int n = 0; n < TURN_COLUMNS; n++) k.at[n] = at[n];

@@ -10,11 +10,11 @@ static volatile double sink; // keeps results alive
 void bench_right_hand_sides(void *context, long repeats) {
   const bench_subject *s = context;
   bike_state state = s->state;
-  bike_rates rates;
+  bike_rates r;
   double sum = 0;
   for (long i = 0; i < repeats; i++) {
     state.lean = s->state.lean + 1e-9 * (double)i;
-    if (!bike_rates_of(&rates, &s->model, &state, NULL)) sum += rates.acceleration.lean;
+    if (!bike_rates_of(&r, &s->model, &state, NULL)) sum += r.acceleration.lean;
   }
   sink = sum;
 }

@@ -49,35 +49,36 @@ typedef struct kane {
   twist rest;     // accelerations with u', beta_r'' and Omega' zero, gravity as an upward one
   wrench need;    // for `rest`
   vec rider_rest; // acceleration of the rider relative to the frame
-  form along_B, along_Y; // momenta of the speeds' motions along pitch and yaw
-  real M[6];             // phi phi, kap kap, v v, phi kap, phi v, kap v
-  real f[3];             // phi, kap, v
-  real pivot[3];         // of the elimination of v, kap, phi
+  // momenta of the speeds' motions along pitch, along yaw, and of the front wheel's spin
+  form along_B, along_Y, along_F;
+  real M[6];     // phi phi, kap kap, v v, phi kap, phi v, kap v
+  real f[3];     // phi, kap, v
+  real pivot[3]; // of the elimination of v, kap, phi
 } kane;
 
-// The rider at rider offset zero.
+// The rider at rider offset zero. The front body is put to the rear one in frame axes (N, p, S),
+// where the foot of the steering axis and e_S are constant.
 static inline void place_masses(masses *b, const kernel_model *m, const position *g) {
-  const kernel_geometry *L = &m->geometry;
-  real s = g->s_br, c = g->c_br;
-  vec rear_moment = scaled(m->rear.mass, vec_of(m->rear.centre)), front_moment;
-  b->J = tensor_about_x(tensor_of(m->rear.inertia), s, c);
-  b->J_f = tensor_about_z(tensor_of(m->front.inertia), g->s_phi, g->c_phi);
-  b->J_f = tensor_about_x(b->J_f, s, c);
-  front_moment = turned_about_z(scaled(m->front.mass, vec_of(m->front.centre)), g->s_phi, g->c_phi);
-  front_moment = turned_about_x(front_moment, s, c);
+  real s = g->s_br, c = g->c_br, nought = c - c;
+  vec foot = {nought, m->geometry.L_r, -m->geometry.L_s};
+  tensor J = tensor_of(m->rear.inertia);
+  tensor J_f = tensor_about_z(tensor_of(m->front.inertia), g->s_phi, g->c_phi);
+  vec d = turned_about_z(vec_of(m->front.moment), g->s_phi, g->c_phi);
+  vec h_S = {J_f.xz, J_f.yz, J_f.zz}, p_S = {-d.y, d.x, nought};
+  add_shifted(&J, J_f, m->front.mass, d, foot);
+  vec moment = add(add(vec_of(m->rear.moment), d), scaled(m->front.mass, foot));
 
-  real nought = c - c;
+  b->mass = m->rear.mass + m->front.mass;
+  b->moment = turned_about_x(moment, s, c);
+  b->J = tensor_about_x(J, s, c);
+  b->J_f = tensor_about_x(J_f, s, c);
+  b->foot = turned_about_x(foot, s, c);
   b->axis = (vec){nought, -s, c};
   b->axle_f = (vec){g->c_phi, g->s_phi * c, g->s_phi * s};
-  b->foot = (vec){nought, L->L_r * c + L->L_s * s, L->L_r * s - L->L_s * c};
+  b->p_S = turned_about_x(p_S, s, c);
+  b->h_S = turned_about_x(h_S, s, c);
+  b->J_S = J_f.zz;
   b->rider = turned_about_x(vec_of(m->rider_place), s, c);
-  b->mass = m->rear.mass + m->front.mass;
-  b->moment =
-      add(add(turned_about_x(rear_moment, s, c), front_moment), scaled(m->front.mass, b->foot));
-  add_shifted(&b->J, b->J_f, m->front.mass, front_moment, b->foot);
-  b->p_S = cross(b->axis, front_moment);
-  b->h_S = times(&b->J_f, b->axis);
-  b->J_S = dot(b->axis, b->h_S);
 }
 
 // Moves the rider by w to the right.
@@ -91,15 +92,18 @@ static inline void move_rider(masses *b, const kernel_model *m, real w) {
   b->rider.x += w;
 }
 
-// Inertia between the five plain motions.
+// Inertia between the five plain motions. The rear wheel spins with yaw, -sin kap, and forward,
+// -1/R_r, alone (16).
 typedef struct inertia {
   real BB, BY, BS, BK, BX, YY, YS, YK, YX, SS, SK, SX, KK, XX; // K and X are orthogonal
 } inertia;
 
-static inline void inertia_of(inertia *G, const masses *b, const position *g, real R) {
+static inline void inertia_of(inertia *G, const masses *b, const position *g,
+                              const kernel_model *m) {
   const tensor *J = &b->J;
   vec c = b->moment;
-  real Rs = R * g->s_kap;
+  real R = m->geometry.R_r, Rs = R * g->s_kap;
+  real spin_Y = m->rear.spin_inertia * g->s_kap, spin_X = m->rear.spin_inertia * m->over_R_r;
   // e_z x moment along e_R; e_z . J
   real forward = g->c_kap * c.x + g->s_kap * c.z;
   vec Jz = {g->c_kap * J->xz - g->s_kap * J->xx, g->c_kap * J->yz - g->s_kap * J->xy,
@@ -109,11 +113,12 @@ static inline void inertia_of(inertia *G, const masses *b, const position *g, re
   G->BK = J->xy;
   G->BX = -c.z;
   G->BY = Jz.x - Rs * c.z;
-  G->XX = b->mass;
+  G->XX = b->mass + spin_X * m->over_R_r;
   G->KK = R * (R * b->mass + 2.0 * c.z) + J->yy;
-  G->YX = Rs * b->mass + forward;
+  G->YX = Rs * b->mass + forward + spin_X * g->s_kap;
   G->YK = Jz.y - R * g->c_kap * c.y;
-  G->YY = Rs * (Rs * b->mass + 2.0 * forward) + g->c_kap * Jz.z - g->s_kap * Jz.x;
+  G->YY =
+      Rs * (Rs * b->mass + 2.0 * forward) + g->c_kap * Jz.z - g->s_kap * Jz.x + spin_Y * g->s_kap;
   G->BS = h.x;
   G->SX = b->p_S.y;
   G->SK = R * b->p_S.x + h.y;
@@ -121,10 +126,10 @@ static inline void inertia_of(inertia *G, const masses *b, const position *g, re
   G->SS = b->J_S;
 }
 
-static inline void mass_matrix(kane *k, const inertia *G, const rate_forms *q, real spin_r,
-                               real spin_f) {
+static inline void mass_matrix(kane *k, const inertia *G, const rate_forms *q,
+                               real spin_inertia_f) {
   real *M = k->M;
-  form b = q->br, o = q->yaw, r = q->spin_r, f = q->spin_f;
+  form b = q->br, o = q->yaw, f = q->spin_f;
   // momenta of the motions phi', kappa', v along the plain ones
   real phi_B = b.phi * G->BB + o.phi * G->BY + G->BS, phi_Y = b.phi * G->BY + o.phi * G->YY + G->YS;
   real phi_S = b.phi * G->BS + o.phi * G->YS + G->SS;
@@ -133,14 +138,16 @@ static inline void mass_matrix(kane *k, const inertia *G, const rate_forms *q, r
   real kap_K = b.kap * G->BK + o.kap * G->YK + G->KK;
   real v_B = o.v * G->BY + G->BX, v_Y = o.v * G->YY + G->YX, v_S = o.v * G->YS + G->SX;
   real v_K = o.v * G->YK, v_X = o.v * G->YX + G->XX;
+  form F = {spin_inertia_f * f.phi, spin_inertia_f * f.kap, spin_inertia_f * f.v};
   k->along_B = (form){phi_B, kap_B, v_B};
   k->along_Y = (form){phi_Y, kap_Y, v_Y};
-  M[0] = b.phi * phi_B + o.phi * phi_Y + phi_S + spin_r * r.phi * r.phi + spin_f * f.phi * f.phi;
-  M[1] = b.kap * kap_B + o.kap * kap_Y + kap_K + spin_r * r.kap * r.kap + spin_f * f.kap * f.kap;
-  M[2] = o.v * v_Y + v_X + spin_r * r.v * r.v + spin_f * f.v * f.v;
-  M[3] = b.phi * kap_B + o.phi * kap_Y + kap_S + spin_r * r.phi * r.kap + spin_f * f.phi * f.kap;
-  M[4] = b.phi * v_B + o.phi * v_Y + v_S + spin_r * r.phi * r.v + spin_f * f.phi * f.v;
-  M[5] = b.kap * v_B + o.kap * v_Y + v_K + spin_r * r.kap * r.v + spin_f * f.kap * f.v;
+  k->along_F = F;
+  M[0] = b.phi * phi_B + o.phi * phi_Y + phi_S + F.phi * f.phi;
+  M[1] = b.kap * kap_B + o.kap * kap_Y + kap_K + F.kap * f.kap;
+  M[2] = o.v * v_Y + v_X + F.v * f.v;
+  M[3] = b.phi * kap_B + o.phi * kap_Y + kap_S + F.phi * f.kap;
+  M[4] = b.phi * v_B + o.phi * v_Y + v_S + F.phi * f.v;
+  M[5] = b.kap * v_B + o.kap * v_Y + v_K + F.kap * f.v;
 }
 
 // Velocities, and the accelerations that the turning of the axes alone causes: the basis turns with
@@ -158,20 +165,18 @@ static inline void move_frame(kane *k, const kernel_model *m, const position *g,
   k->rest.hub.z += m->gravity * g->c_kap;
 }
 
-// What the steering rate adds for the front body, which turns with w + phi' e_S: force at the foot
-//   2 phi' w x p_S + phi'^2 e_S x p_S,
-// torque about the foot
-//   phi' (w x h_S + e_S x J_f w - J_f (e_S x w)) + phi'^2 e_S x h_S, without part along e_S.
-static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, vec across,
-                                real phi) {
+// What the steering rate adds for the front body, which turns with w + phi' e_S: accelerations
+// 2 phi' w x (e_S x r) + phi'^2 e_S x (e_S x r) at r from the foot, hence the force
+//   2 phi' w x p_S + phi'^2 e_S x p_S
+// at the foot and the torque about it, without part along e_S,
+//   phi' e_S x (2 J_f w - tr J_f w + phi' h_S).
+static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, real phi) {
   vec swept = cross(w, b->p_S);
-  vec force = add(add(swept, swept), scaled(phi, cross(b->axis, b->p_S)));
-  vec torque = add(cross(add(w, scaled(phi, b->axis)), b->h_S), cross(b->axis, J_f_w));
-  vec turned = times(&b->J_f, across);
-  torque = (vec){torque.x - turned.x, torque.y - turned.y, torque.z - turned.z};
-  force = scaled(phi, force);
+  vec force = scaled(phi, add(add(swept, swept), scaled(phi, cross(b->axis, b->p_S))));
+  real trace = b->J_f.xx + b->J_f.yy + b->J_f.zz;
+  vec spun = add(add(add(J_f_w, J_f_w), scaled(-trace, w)), scaled(phi, b->h_S));
   n->force = add(n->force, force);
-  n->torque = add(n->torque, add(scaled(phi, torque), cross(b->foot, force)));
+  n->torque = add(n->torque, add(scaled(phi, cross(b->axis, spun)), cross(b->foot, force)));
 }
 
 // Adds what an acceleration of the rider relative to the frame needs.
@@ -192,7 +197,7 @@ static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q) 
   // the front body about e_S: p_S . a_foot + h_S . al + e_S . (w x J_f w)
   vec J_f_w = times(&b->J_f, w), across = cross(b->axis, w);
   n->steer = dot(b->p_S, add(a, carried(al, w, b->foot))) + dot(b->h_S, al) + dot(across, J_f_w);
-  add_steering(n, b, w, J_f_w, across, q->u.phi);
+  add_steering(n, b, w, J_f_w, q->u.phi);
   // the wheels' angular momenta turn with their hub axes
   real H_r = m->rear.spin_inertia * q->spin_r;
   vec H_f = scaled(m->front.spin_inertia * q->spin_f, b->axle_f);
@@ -219,17 +224,18 @@ static inline form along_motions(const wrench *n, const position *g, const rate_
 
 // f: the damper's torque less what the accelerations at u' = 0 need along each motion. beta_r'' and
 // Omega' at u' = 0, which are known last, are motions along pitch and yaw: their momenta are at
-// hand.
+// hand, the rear wheel's spin-up by Omega' in them. What else spins it up comes from a force at the
+// hub, along all motions as (16) has it.
 static inline void forces_along(kane *k, const kernel_model *m, const position *g,
                                 const rate_forms *q, const rates *r, const bias *b) {
-  form need = along_motions(&k->need, g, q, m->geometry.R_r);
-  real up_r = m->rear.spin_inertia * b->spin_r, up_f = m->front.spin_inertia * b->spin_f;
-  form P = k->along_B, S = k->along_Y;
-  k->f[0] = -m->steer_damping * r->u.phi - need.phi -
-            (P.phi * b->br + S.phi * b->yaw + q->spin_r.phi * up_r + q->spin_f.phi * up_f);
-  k->f[1] =
-      -need.kap - (P.kap * b->br + S.kap * b->yaw + q->spin_r.kap * up_r + q->spin_f.kap * up_f);
-  k->f[2] = -need.v - (P.v * b->br + S.v * b->yaw + q->spin_r.v * up_r + q->spin_f.v * up_f);
+  wrench need = k->need;
+  need.force.y += m->rear.spin_inertia * m->over_R_r * (r->yaw * g->c_kap * r->u.kap);
+  form n = along_motions(&need, g, q, m->geometry.R_r);
+  form P = k->along_B, S = k->along_Y, F = k->along_F;
+  k->f[0] =
+      -m->steer_damping * r->u.phi - n.phi - (P.phi * b->br + S.phi * b->yaw + F.phi * b->spin_f);
+  k->f[1] = -n.kap - (P.kap * b->br + S.kap * b->yaw + F.kap * b->spin_f);
+  k->f[2] = -n.v - (P.v * b->br + S.v * b->yaw + F.v * b->spin_f);
 }
 
 static inline void add_torques(kane *k, const load *in) {

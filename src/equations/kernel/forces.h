@@ -26,8 +26,11 @@ static inline twist accelerated(const instant *now, const kernel_model *m) {
   return t;
 }
 
-static inline real spin_up_rear(const instant *now) {
-  return now->rest.spin_r + applied(now->forms.spin_r, now->acceleration);
+// (16)'
+static inline real spin_up_rear(const instant *now, const kernel_model *m) {
+  real yaw = now->rest.yaw + applied(now->forms.yaw, now->acceleration);
+  return -now->acceleration.v * m->over_R_r - yaw * now->at.s_kap -
+         now->rate.yaw * now->at.c_kap * now->rate.u.kap;
 }
 
 static inline real spin_up_front(const instant *now) {
@@ -47,7 +50,7 @@ static inline wrench needed(const instant *now, const kernel_model *m) {
   vec steering = add(b->h_S, cross(b->foot, b->p_S));
   n.torque =
       add(n.torque, add(add(cross(b->moment, hub), times(&b->J, turn)), scaled(phi, steering)));
-  n.torque.x += m->rear.spin_inertia * spin_up_rear(now);
+  n.torque.x += m->rear.spin_inertia * spin_up_rear(now, m);
   n.torque = add(n.torque, scaled(m->front.spin_inertia * spin_up_front(now), b->axle_f));
   return n;
 }
@@ -72,7 +75,7 @@ static inline ground ground_forces(const instant *now, const kernel_model *m, co
   vec N = add(to_ground(g, n.torque), cross(arm, force));
   N.x -= in->roll_torque;
   ground out;
-  out.rear.x = m->rear.spin_inertia * spin_up_rear(now) / R;
+  out.rear.x = m->rear.spin_inertia * spin_up_rear(now, m) / R;
   out.rear.y = (K2 * out.rear.x - N.z) / K1;
   out.rear.z = (K1 * N.y - K2 * N.x) / (K1 * K1 + K2 * K2);
   out.front = (vec){force.x - out.rear.x, force.y - out.rear.y, force.z - out.rear.z};

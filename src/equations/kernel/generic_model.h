@@ -12,7 +12,7 @@ typedef struct kernel_geometry {
 
 typedef struct kernel_body {
   real mass;
-  real centre[3];
+  real moment[3];
   real inertia[6];
   real spin_inertia;
 } kernel_body;
@@ -30,7 +30,7 @@ typedef struct kernel_model {
 
 static inline void kernel_body_of(kernel_body *out, const bike_body *b) {
   out->mass = real_of(b->mass);
-  for (int i = 0; i < 3; i++) out->centre[i] = real_of(b->centre[i]);
+  for (int i = 0; i < 3; i++) out->moment[i] = real_of(b->moment[i]);
   for (int i = 0; i < 6; i++) out->inertia[i] = real_of(b->inertia[i]);
   out->spin_inertia = real_of(b->spin_inertia);
 }

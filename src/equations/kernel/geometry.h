@@ -45,7 +45,7 @@ static inline start guessed(const kernel_model *m, real phi, real kappa) {
                  r + square};
 }
 
-// The start at a known angle.
+// The start at an angle near by.
 static inline start begun(const kernel_model *m, real s_br, real c_br) {
   real r = m->newton_scale;
   return (start){r * s_br, r * c_br, r};
@@ -53,48 +53,58 @@ static inline start begun(const kernel_model *m, real s_br, real c_br) {
 
 // Solves (4) with (1) put in, times cos kappa cos beta_r:
 //   G = L_r cos kap sin br + R_r cos kap + L_f tau - R_f cos psi - L_s cos kap cos br = 0.
-// (sin br, cos br) is carried as (s, c)/r. A Newton step delta = -G/G' = -2p/q becomes the rotation
-// by 2 atan(-p/q), the same to third order, without a division: r grows by q^2 + p^2. As q is
-// 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) where it starts there.
-static inline void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
-  real s = from.s, c = from.c, r = from.r;
+// cos kap (sin br, cos br) is carried as (cs, a)/r. A Newton step delta = -G/G' = -2p/q becomes the
+// rotation by 2 atan(-p/q), the same to third order, without a division: r grows by q^2 + p^2. As q
+// is 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) where it starts
+// there.
+static inline void newton_rear_angle(int steps, posture *g, const kernel_geometry *L, start from) {
+  real cs = g->c_kap * from.s, a = g->c_kap * from.c, r = from.r;
   real across = g->s_kap * g->s_phi;
-  for (int step = 0; step < NEWTON_STEPS; step++) {
-    real cs = g->c_kap * s, a = g->c_kap * c;
+  real reach = L->L_r + L->L_f * g->c_phi, rise = L->R_r * g->c_kap + L->L_f * across;
+  for (int step = 0; step < steps; step++) {
     real tau = cs * g->c_phi + across * r;
     real c_psi = real_sqrt(tau * tau + a * a);
     // G' = (L_r + L_f cos phi) a + L_s cs - R_f a (tau cos phi - cs)/cos psi
-    real part = L->L_r * cs + L->R_r * g->c_kap * r + L->L_f * tau - L->L_s * a;
-    real slope = (L->L_r + L->L_f * g->c_phi) * a + L->L_s * cs;
+    real part = reach * cs + rise * r - L->L_s * a;
+    real slope = reach * a + L->L_s * cs;
     real p = (part - L->R_f * c_psi) * c_psi;
     real q = 2.0 * (slope * c_psi - L->R_f * a * (tau * g->c_phi - cs));
     real along = q * q - p * p, turn = -2.0 * p * q;
-    real s_new = along * s + turn * c;
-    c = along * c - turn * s;
-    s = s_new;
+    real cs_new = along * cs + turn * a;
+    a = along * a - turn * cs;
+    cs = cs_new;
     r = r * (q * q + p * p);
   }
-  real norm = 1.0 / r, over_a = 1.0 / (g->c_kap * c); // side by side
-  g->s_br = s * norm;
-  g->c_br = c * norm;
-  g->over_a = r * over_a;
+  real norm = 1.0 / (g->c_kap * r), over_a = 1.0 / a; // side by side
+  real s = cs * norm, c = a * norm;
+  // what the roundings of the steps have left of 1 - s^2 - c^2, once more than halved
+  real half = 0.5 * (1.0 - s * s - c * c);
+  g->s_br = s + half * s;
+  g->c_br = c + half * c;
+  g->over_a = r * over_a - half * (r * over_a);
+}
+
+static inline void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
+  newton_rear_angle(NEWTON_STEPS, g, L, from);
 }
 
 static inline void find_posture(posture *out, const kernel_geometry *L, start from, real phi,
-                               real kappa) {
+                                real kappa) {
   real_sincos(phi, &out->s_phi, &out->c_phi);
   real_sincos(kappa, &out->s_kap, &out->c_kap);
   solve_rear_angle(out, L, from);
 }
 
 static inline void place(position *g, const kernel_geometry *L, const posture *at) {
-  g->s_phi = at->s_phi;
-  g->c_phi = at->c_phi;
-  g->s_kap = at->s_kap;
-  g->c_kap = at->c_kap;
-  g->s_br = at->s_br;
-  g->c_br = at->c_br;
-  g->over_a = at->over_a;
+  // what follows shares no product with what has led here, so that the same products are fused
+  // whether both are compiled together or apart
+  g->s_phi = real_anew(at->s_phi);
+  g->c_phi = real_anew(at->c_phi);
+  g->s_kap = real_anew(at->s_kap);
+  g->c_kap = real_anew(at->c_kap);
+  g->s_br = real_anew(at->s_br);
+  g->c_br = real_anew(at->c_br);
+  g->over_a = real_anew(at->over_a);
   // (2), and (1) times cos kappa cos beta_r
   real cs = g->c_kap * g->s_br;
   g->s_psi = g->c_phi * g->s_kap - g->s_phi * cs;
@@ -138,6 +148,19 @@ static inline root_checks root_checks_of(const position *g) {
 static inline void locate(position *g, const kernel_geometry *L, start from, real phi, real kappa) {
   posture at;
   find_posture(&at, L, from, phi, kappa);
+  place(g, L, &at);
+}
+
+// Where beta_r is known: for derivatives by phi and kappa. The error of a step of Newton's method
+// is quadratic in that of its start, so that the derivatives of one step from the root, which is a
+// constant, are those of the root. Those of further steps cancel more and more.
+static inline void locate_known(position *g, const kernel_geometry *L, real s_br, real c_br,
+                                real phi, real kappa) {
+  posture at;
+  real nought = s_br - s_br;
+  real_sincos(phi, &at.s_phi, &at.c_phi);
+  real_sincos(kappa, &at.s_kap, &at.c_kap);
+  newton_rear_angle(1, &at, L, (start){s_br, c_br, 1.0 - nought});
   place(g, L, &at);
 }
 

@@ -20,15 +20,15 @@ OPERATIONS = {
     ("real", "-", "real"): "tangent_sub",
     ("real", "*", "real"): "tangent_mul",
     ("real", "/", "real"): "tangent_div",
+    ("double", "-", "real"): "tangent_from",
     ("double", "*", "real"): "tangent_scale",
     ("double", "/", "real"): "tangent_over",
 }
 REAL, DOUBLE, INT = ("real",), ("double",), ("int",)
 PLAIN = {"double": DOUBLE, "void": ("void",), "char": ("char",), "int": INT, "_Bool": INT}
 
-# number_tangent.h defines the first on top of the kernel's own function, which it gets under the
-# second name with the third, a constant of the kernel, as its first parameter.
-OPENED = ("solve_rear_angle", "newton_rear_angle", "NEWTON_STEPS")
+# number_tangent.h defines this in a manner of its own; of the kernel's, the promise remains.
+REPLACED = "solve_rear_angle"
 
 HEAD = """\
 // SPDX-License-Identifier: Apache-2.0
@@ -240,13 +240,10 @@ class Lowering:
 
 def shown(node, generator):
     """A lowered declaration as C."""
-    text = generator.visit(node)
     if not isinstance(node, c_ast.FuncDef):
-        return text + ";\n"
-    name, other, constant = OPENED
-    if node.decl.name == name:
-        promise = generator.visit(node.decl) + ";\n"
-        text = promise + text.replace(f"{name}(", f"{other}(int {constant}, ", 1)
+        return generator.visit(node) + ";\n"
+    replaced = node.decl.name == REPLACED
+    text = generator.visit(node.decl) + ";\n" if replaced else generator.visit(node)
     return text.replace("inline static", "LANE_INLINE")
 
 

@@ -5,6 +5,7 @@ typedef struct real real;
 real real_of(double x);
 real real_sqrt(real x);
 void real_sincos(real x, real *s, real *c);
+real real_anew(real x);
 
 #include "equations/kernel/generic_model.h"
 

@@ -11,6 +11,7 @@ typedef struct bike_body {
   double mass;         // kg
   double centre[3];    // m        centre of mass; rear: from the rear hub, front: from the foot of
                        //          the perpendicular from the front hub onto the steering axis
+  double moment[3];    // kg m     mass times centre
   double inertia[6];   // kg m^2   NN, pp, SS, Np, NS, pS about that hub or foot point, the wheel's
                        //          axial inertia left out
   double spin_inertia; // kg m^2   the wheel's inertia about its hub axis

@@ -13,12 +13,11 @@ void slope_by_step(slope_result *out, const bike_model *model, const double at[J
   real x[JACOBIAN_ARGUMENTS];
   for (int i = 0; i < JACOBIAN_ARGUMENTS; i++) x[i] = at[i];
   x[which] += I * STEP;
-  start from = begun(&m, sin(beta_r), cos(beta_r));
   form u = {x[AT_STEER_RATE], x[AT_LEAN_RATE], x[AT_SPEED]};
   load in = {x[AT_STEER_TORQUE], x[AT_ROLL_TORQUE], x[AT_RIDER_OFFSET], x[AT_RIDER_VELOCITY],
              x[AT_RIDER_ACCELERATION]};
   instant now;
-  solve_instant(&now, &m, from, x[AT_STEER], x[AT_LEAN], u, &in);
+  solve_known(&now, &m, sin(beta_r), cos(beta_r), x[AT_STEER], x[AT_LEAN], u, &in);
   energy e = energy_of(&now, &m, &in);
   form a = now.acceleration;
   ground f = ground_forces(&now, &m, &in);
