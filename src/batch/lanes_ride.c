@@ -38,6 +38,7 @@ typedef struct pen {
   real y[LANES_STATE];
   start from;                         // beta_r of the last evaluation at the start of a step
   real before_t, before[LANES_STATE]; // before the last accepted step
+  start before_from;                  // from there, the root beyond may be out of Newton's reach
   book books[LANES];
 } pen;
 
@@ -135,6 +136,12 @@ static bike_state state_of(const real y[LANES_STATE], int lane) {
                       .speed = y[LANES_SPEED][lane]};
 }
 
+static void put_start(start *to, const start *from, int lane) {
+  to->s[lane] = from->s[lane];
+  to->c[lane] = from->c[lane];
+  to->r[lane] = from->r[lane];
+}
+
 static void take_next(pen *p, int lane, const lanes_ride_def *def) {
   lanes_rider r;
   book *b = &p->books[lane];
@@ -206,6 +213,7 @@ static bool retreat(pen *p, int lane) {
   b->beyond = p->t[lane];
   p->t[lane] = p->before_t[lane];
   for (int i = 0; i < LANES_STATE; i++) p->y[i][lane] = p->before[i][lane];
+  put_start(&p->from, &p->before_from, lane);
   b->looks = b->looks_before;
   b->quiet = b->quiet_before;
   b->steps--;
@@ -238,6 +246,7 @@ static void accept(pen *p, int lane, const trial *tr, double h, double stop, boo
     p->before[i][lane] = p->y[i][lane];
     p->y[i][lane] = tr->y[i][lane];
   }
+  put_start(&p->before_from, &p->from, lane);
   b->looks_before = b->looks;
   b->quiet_before = b->quiet;
   b->steps++;
