@@ -23,7 +23,8 @@ typedef struct masses {
   real mass;    // of the whole bicycle
   vec moment;   // its first moment from the rear hub
   tensor J;     // its inertia about the rear hub
-  tensor J_f;   // of the front body about the foot point of the steering axis
+  tensor J_f;   // in frame axes: of the front body about the foot point of the steering axis
+  vec p_f;      // in frame axes: momentum of unit steering
   vec foot;     // that point, from the rear hub
   vec axis;     // e_S
   vec axle_f;   // e_N^f, the front wheel's hub axis
@@ -71,7 +72,8 @@ static inline void place_masses(masses *b, const kernel_model *m, const position
   b->mass = m->rear.mass + m->front.mass;
   b->moment = turned_about_x(moment, s, c);
   b->J = tensor_about_x(J, s, c);
-  b->J_f = tensor_about_x(J_f, s, c);
+  b->J_f = J_f;
+  b->p_f = p_S;
   b->foot = turned_about_x(foot, s, c);
   b->axis = (vec){nought, -s, c};
   b->axle_f = (vec){g->c_phi, g->s_phi * c, g->s_phi * s};
@@ -165,18 +167,31 @@ static inline void move_frame(kane *k, const kernel_model *m, const position *g,
   k->rest.hub.z += m->gravity * g->c_kap;
 }
 
-// What the steering rate adds for the front body, which turns with w + phi' e_S: accelerations
-// 2 phi' w x (e_S x r) + phi'^2 e_S x (e_S x r) at r from the foot, hence the force
-//   2 phi' w x p_S + phi'^2 e_S x p_S
+// What the front body needs beyond what it does as part of the frame, which turns with w: it turns
+// with w + phi' e_S, and its wheel spins. All in frame axes, where e_S = (0, 0, 1) and the foot of
+// the steering axis f = (0, L_r, -L_s) are constant. Accelerations of steering
+// 2 phi' w x (e_S x r) + phi'^2 e_S x (e_S x r) at r from the foot need the force
+//   F = 2 phi' w x p_S + phi'^2 e_S x p_S
 // at the foot and the torque about it, without part along e_S,
-//   phi' e_S x (2 J_f w - tr J_f w + phi' h_S).
-static inline void add_steering(wrench *n, const masses *b, vec w, vec J_f_w, real phi) {
-  vec swept = cross(w, b->p_S);
-  vec force = scaled(phi, add(add(swept, swept), scaled(phi, cross(b->axis, b->p_S))));
-  real trace = b->J_f.xx + b->J_f.yy + b->J_f.zz;
-  vec spun = add(add(add(J_f_w, J_f_w), scaled(-trace, w)), scaled(phi, b->h_S));
-  n->force = add(n->force, force);
-  n->torque = add(n->torque, add(scaled(phi, cross(b->axis, spun)), cross(b->foot, force)));
+//   phi' e_S x (2 J_f w - tr J_f w + phi' h_S);
+// the wheel's angular momentum H, which turns with its hub axis, the torque (w + phi' e_S) x H.
+static inline void add_front(wrench *n, const masses *b, const kernel_model *m, const position *g,
+                             vec turn, real phi, real H) {
+  const tensor *J = &b->J_f;
+  real L_r = m->geometry.L_r, L_s = m->geometry.L_s;
+  vec w = turned_about_x(turn, -g->s_br, g->c_br), p = b->p_f;
+  real J_w_x = J->xx * w.x + J->xy * w.y + J->xz * w.z;
+  real J_w_y = J->xy * w.x + J->yy * w.y + J->yz * w.z;
+  real H_x = H * g->c_phi, H_y = H * g->s_phi, spin = w.z + phi, trace = J->xx + J->yy + J->zz;
+  real push = phi * (w.z + spin);
+  vec F = {-push * p.y, push * p.x, 2.0 * phi * (w.x * p.y - w.y * p.x)};
+  real along = w.x * H_y - w.y * H_x; // of the wheel's torque along e_S
+  vec T = {-phi * (2.0 * J_w_y - trace * w.y + phi * J->yz) - spin * H_y + L_r * F.z + L_s * F.y,
+           phi * (2.0 * J_w_x - trace * w.x + phi * J->xz) + spin * H_x - L_s * F.x,
+           along - L_r * F.x};
+  n->force = add(n->force, turned_about_x(F, g->s_br, g->c_br));
+  n->torque = add(n->torque, turned_about_x(T, g->s_br, g->c_br));
+  n->steer += w.x * J_w_y - w.y * J_w_x + along;
 }
 
 // Adds what an acceleration of the rider relative to the frame needs.
@@ -187,24 +202,20 @@ static inline void push_rider(wrench *n, const masses *b, const kernel_model *m,
 }
 
 // Force and torque needed for `rest`, the wheels' spin-up and what moves the rider left out.
-static inline void need_at_rest(kane *k, const kernel_model *m, const rates *q) {
+static inline void need_at_rest(kane *k, const kernel_model *m, const position *g, const rates *q) {
   const masses *b = &k->body;
   vec w = k->velocity.turn, a = k->rest.hub, al = k->rest.turn;
   wrench *n = &k->need;
   // the whole bicycle rigid: m a + al x c + w x (w x c);  c x a + J al + w x J w
   n->force = add(scaled(b->mass, a), carried(al, w, b->moment));
   n->torque = add(add(cross(b->moment, a), times(&b->J, al)), cross(w, times(&b->J, w)));
-  // the front body about e_S: p_S . a_foot + h_S . al + e_S . (w x J_f w)
-  vec J_f_w = times(&b->J_f, w), across = cross(b->axis, w);
-  n->steer = dot(b->p_S, add(a, carried(al, w, b->foot))) + dot(b->h_S, al) + dot(across, J_f_w);
-  add_steering(n, b, w, J_f_w, q->u.phi);
-  // the wheels' angular momenta turn with their hub axes
+  // the front body about e_S: p_S . a_foot + h_S . al + e_S . (w x J_f w), the last in add_front
+  n->steer = dot(b->p_S, add(a, carried(al, w, b->foot))) + dot(b->h_S, al);
+  add_front(n, b, m, g, w, q->u.phi, m->front.spin_inertia * q->spin_f);
+  // the rear wheel's angular momentum turns with its hub axis
   real H_r = m->rear.spin_inertia * q->spin_r;
-  vec H_f = scaled(m->front.spin_inertia * q->spin_f, b->axle_f);
   n->torque.y += w.z * H_r;
   n->torque.z -= w.y * H_r;
-  n->torque = add(n->torque, cross(add(w, scaled(q->u.phi, b->axis)), H_f));
-  n->steer += dot(across, H_f);
 }
 
 // The rider relative to the frame at u' = 0: 2 w' w x e_N + w'' e_N.

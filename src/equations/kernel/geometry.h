@@ -52,7 +52,7 @@ static inline start begun(const kernel_model *m, real s_br, real c_br) {
 }
 
 // Solves (4) with (1) put in, times cos kappa cos beta_r:
-//   G = L_r cos kap sin br + R_r cos kap + L_f tau - R_f cos psi - L_s cos kap cos br = 0.
+//   G = L_r cos kap sin br + R_r cos kap + L_f tau - L_s cos kap cos br - R_f cos psi = 0.
 // cos kap (sin br, cos br) is carried as (cs, a)/r. A Newton step delta = -G/G' = -2p/q becomes the
 // rotation by 2 atan(-p/q), the same to third order, without a division: r grows by q^2 + p^2. As q
 // is 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) where it starts
@@ -63,12 +63,10 @@ static inline void newton_rear_angle(int steps, posture *g, const kernel_geometr
   real reach = L->L_r + L->L_f * g->c_phi, rise = L->R_r * g->c_kap + L->L_f * across;
   for (int step = 0; step < steps; step++) {
     real tau = cs * g->c_phi + across * r;
-    real c_psi = real_sqrt(tau * tau + a * a);
-    // G' = (L_r + L_f cos phi) a + L_s cs - R_f a (tau cos phi - cs)/cos psi
-    real part = reach * cs + rise * r - L->L_s * a;
-    real slope = reach * a + L->L_s * cs;
-    real p = (part - L->R_f * c_psi) * c_psi;
-    real q = 2.0 * (slope * c_psi - L->R_f * a * (tau * g->c_phi - cs));
+    real square = tau * tau + a * a, c_psi = real_sqrt(square);
+    real part = reach * cs + rise * r - L->L_s * a, slope = reach * a + L->L_s * cs;
+    real p = part * c_psi - L->R_f * square;
+    real q = 2.0 * slope * c_psi - 2.0 * L->R_f * a * (tau * g->c_phi - cs);
     real along = q * q - p * p, turn = -2.0 * p * q;
     real cs_new = along * cs + turn * a;
     a = along * a - turn * cs;
@@ -81,7 +79,7 @@ static inline void newton_rear_angle(int steps, posture *g, const kernel_geometr
   real half = 0.5 * (1.0 - s * s - c * c);
   g->s_br = s + half * s;
   g->c_br = c + half * c;
-  g->over_a = r * over_a - half * (r * over_a);
+  g->over_a = (r - half * r) * over_a;
 }
 
 static inline void solve_rear_angle(posture *g, const kernel_geometry *L, start from) {
@@ -110,12 +108,13 @@ static inline void place(position *g, const kernel_geometry *L, const posture *a
   g->s_psi = g->c_phi * g->s_kap - g->s_phi * cs;
   g->tau = g->c_phi * cs + g->s_phi * g->s_kap;
   g->a = g->c_kap * g->c_br;
-  g->c_psi = real_sqrt(g->tau * g->tau + g->a * g->a);
+  real square = g->tau * g->tau + g->a * g->a, over_square = 1.0 / square;
+  g->c_psi = real_sqrt(square);
+  g->over_c_psi = g->c_psi * over_square;
   real over_a = g->over_a;
   g->over_c_kap = g->c_br * over_a;
   g->over_c_br = g->c_kap * over_a;
   g->over_c_bf = g->c_psi * over_a;
-  g->over_c_psi = 1.0 / g->c_psi;
   g->t_br = g->s_br * g->over_c_br;
   g->t_bf = g->tau * over_a;
   g->s_bf = g->tau * g->over_c_psi;

@@ -54,7 +54,7 @@ static inline void solve_located(instant *out, const kernel_model *m, form u, co
   inertia_of(&G, &k->body, &out->at, m);
   mass_matrix(k, &G, &out->forms, m->front.spin_inertia);
   move_frame(k, m, &out->at, &out->rate);
-  need_at_rest(k, m, &out->rate);
+  need_at_rest(k, m, &out->at, &out->rate);
   if (in) sway_rider(k, m, in);
   forces_along(k, m, &out->at, &out->forms, &out->rate, &out->rest);
   if (in) add_torques(k, in);
