@@ -87,7 +87,8 @@ static bike_sample in_pieces(const bike_model *bike, push *p, double duration) {
   return end;
 }
 
-// An integrator that looks across a jump errs by 1e-6 and more here; 1e-12 is rounding.
+// An integrator that looks across a jump errs by 1e-6 and more here. RK8 leaves rounding, 2e-14;
+// Adams at this tolerance makes 6.5e-12 of rounding at worst, over 60 rides of 3 s.
 static void jumps_are_met_exactly(void **state) {
   (void)state;
   bike_model bike = roadster();
@@ -102,7 +103,7 @@ static void jumps_are_met_exactly(void **state) {
     def.breakpoints = breakpoints;
     def.breakpoint_count = 5;
     bike_sample whole = ride_end(&bike, &def);
-    assert_below(state_gap(&whole, &pieces), 1e-12);
+    assert_below(state_gap(&whole, &pieces), method == BIKE_METHOD_RK8 ? 1e-13 : 2e-11);
     assert_true(fabs(whole.lean) > 1e-3);
     assert_true(p.first >= 0 && p.last <= 3);
     assert_below(energy_drift(&t), method == BIKE_METHOD_RK8 ? 1e-13 : 1e-12);
