@@ -2,9 +2,9 @@
 // Which of the x86-64 instruction set levels the machine has: the kernels are compiled for each,
 // because fused multiply-adds and wide registers are worth a third of the time.
 //
-// Results of two sets differ in the last digits. BICYCLE_INSTRUCTIONS=baseline (or v3, v4) in the
-// environment asks for one that all machines of a comparison have; one that the machine lacks, or
-// another word, is not heeded.
+// v3 and v4 give the same bits of an acceleration, baseline others. BICYCLE_INSTRUCTIONS=baseline
+// (or v3, v4) in the environment asks for one that all machines of a comparison have; one that the
+// machine lacks, or another word, is not heeded.
 #ifndef BICYCLE_EQUATIONS_INSTRUCTION_SET_H
 #define BICYCLE_EQUATIONS_INSTRUCTION_SET_H
 

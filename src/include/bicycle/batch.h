@@ -31,10 +31,8 @@ typedef struct bike_batch_accelerations {
 BIKE_API int bike_batch_create(bike_batch **out, const bike_model *models, size_t model_count);
 BIKE_API void bike_batch_free(bike_batch *batch);
 
-// Hands off. Differs from bike_accelerate by rounding: by some 1e-15 of the terms that add up to an
-// acceleration. They cancel mostly: up to 20 deg and 0.5 rad/s it is below 3e-13 max(1,
-// |acceleration|) for a roadster, and below 1e-12 for a penny-farthing's light steering. Each
-// result depends on its own state and bicycle alone, to the last bit. Results may not lie over the
+// Hands off. The same as bike_accelerate, to the last bit (GCC on x86-64; elsewhere to some 1e-15
+// of the terms that add up to an acceleration, which cancel mostly). Results may not lie over the
 // states. Errors: ARGUMENT (also for a missing array, or a count that is not that of the bicycles).
 BIKE_API int bike_batch_accelerate(bike_batch_accelerations *out, const bike_batch *batch,
                                    const bike_batch_states *states, size_t count);
@@ -52,10 +50,8 @@ BIKE_API int bike_batch_eigenvalues(bike_eigenvalues *out, int *codes, const bik
 
 // How many at a time on this machine, and by which instructions: 8 "v4" (x86-64-v4: AVX-512),
 // 4 "v3" (AVX2), 2 "baseline". The environment variable BICYCLE_INSTRUCTIONS asks for a lower one
-// by its name, so that machines that have more compute as those that have less do: the same to the
-// last bit as long as their C libraries do, whose sine differs in a thousandth of its
-// last bits between processors with fused multiply-adds and those without. It holds for all of the
-// library and is read once.
+// by its name. Accelerations and rates of v4 and v3 are the same to the last bit; baseline has no
+// fused multiply-adds and rounds otherwise. It holds for all of the library and is read once.
 BIKE_API int bike_batch_width(void);
 BIKE_API const char *bike_instructions(void);
 
