@@ -7,6 +7,7 @@
 #include <bicycle/stability.h>
 #include <lapacke.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "motion/cycle_half.h"
@@ -68,9 +69,19 @@ static double largest(const double f[HALF_SIZE]) {
 // Rides are good to 1e-14 rad; this is what is left of a small amplitude after them.
 static const double CLOSED = 1e-9;
 
+// Newton's method that has left the neighbourhood asks for rides without end: 1e8 s at 1e7 m/s have
+// been seen. Period and speed change by per cents from one cycle of a branch to the next, and by a
+// factor of three over a whole branch of the shipped bicycles.
+static bool is_far(const double y[UNKNOWNS], const double guess[UNKNOWNS]) {
+  const double most = 8;
+  double longer = y[HALF_PERIOD] / guess[HALF_PERIOD], faster = y[SPEED] / guess[SPEED];
+  return !(longer > 0 && longer < most && faster > 0 && faster < most);
+}
+
 static int improve(double y[UNKNOWNS], double *residual, const shot *s) {
   enum { ITERATIONS = 12 };
-  double f[HALF_SIZE];
+  double f[HALF_SIZE], guess[UNKNOWNS];
+  memcpy(guess, y, sizeof guess);
   int code = miss(f, s, y);
   for (int i = 0; i < ITERATIONS && !code; i++) {
     *residual = largest(f);
@@ -82,7 +93,7 @@ static int improve(double y[UNKNOWNS], double *residual, const shot *s) {
     if (LAPACKE_dgesv(LAPACK_ROW_MAJOR, UNKNOWNS, 1, J, UNKNOWNS, pivot, f, 1))
       return BIKE_ERROR_NO_CONVERGENCE;
     for (int j = 0; j < UNKNOWNS; j++) y[j] -= f[j];
-    code = miss(f, s, y);
+    code = is_far(y, guess) ? BIKE_ERROR_NO_CONVERGENCE : miss(f, s, y);
   }
   return code ? code : BIKE_ERROR_NO_CONVERGENCE;
 }

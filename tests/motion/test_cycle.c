@@ -7,6 +7,7 @@
 #include <bicycle/error.h>
 #include <bicycle/ride.h>
 #include <bicycle/stability.h>
+#include <bicycle/variant.h>
 
 static const double DEGREE = M_PI / 180;
 
@@ -224,6 +225,22 @@ static void impossible_questions_are_refused(void **state) {
   assert_int_equal(bike_speed_of_equal_energy(&speed, &model, &fast, 1), BIKE_ERROR_NOT_STATIONARY);
 }
 
+// Beyond the end of this bicycle's branch Newton's method would ask for a ride of 1e8 s.
+static void a_search_that_gets_lost_ends(void **state) {
+  (void)state;
+  bike_bicycle roadster = read_shipped("roadster"), bicycle;
+  assert_int_equal(bike_vary(&bicycle, &roadster, BIKE_VARY_TRAIL, 1.12, BIKE_FRONT_IN_SPACE),
+                   BIKE_OK);
+  bike_model model;
+  assert_int_equal(bike_model_init(&model, &bicycle), BIKE_OK);
+  bike_cycle c;
+  double weave = weave_speed(&model), step = 3 * M_PI / 180, lean = step;
+  assert_int_equal(bike_cycle_find(&c, &model, lean, weave, NULL), BIKE_OK);
+  int code = BIKE_OK;
+  while (!code) code = bike_cycle_find(&c, &model, lean += step, weave, &c);
+  assert_int_equal(code, BIKE_ERROR_NO_CONVERGENCE);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cycles_close),
@@ -233,6 +250,7 @@ int main(void) {
       cmocka_unit_test(the_multiplier_is_a_rate),
       cmocka_unit_test(modes_are_eigenvectors),
       cmocka_unit_test(impossible_questions_are_refused),
+      cmocka_unit_test(a_search_that_gets_lost_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
