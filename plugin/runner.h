@@ -45,7 +45,8 @@ int runner_exit_code(runner_status status);
 typedef struct runner runner;
 
 // A runner for a bicycle, or for a model file (.xml, .mjb) of one. NULL with a text in `error`,
-// and why in `status` (either may not be NULL). Free with runner_free; NULL is allowed there.
+// and why in `status` (either may not be NULL), RUNNER_MODEL also where MuJoCo's mass matrix is
+// singular without the ground. Free with runner_free; NULL is allowed there.
 runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
                       runner_status *status, mjcf_error *error);
 runner *runner_load(const char *path, runner_status *status, mjcf_error *error);

@@ -192,6 +192,25 @@ static void test_foreign_models(void **state) {
   }
 }
 
+// Point masses alone leave MuJoCo's mass matrix singular, with either root: its rides were noise.
+static void test_singular_bicycle(void **state) {
+  (void)state;
+  bike_bicycle b = read_shipped("roadster_riderless");
+  int kept = 0;
+  for (int i = 0; i < b.part_count; i++)
+    if (b.parts[i].assembly != BIKE_FRONT_FRAME) b.parts[kept++] = b.parts[i];
+  b.part_count = kept;
+  mjcf_options options = mjcf_default_options();
+  for (int root = 0; root < 2; root++) {
+    runner_status status;
+    mjcf_error error = {""};
+    options.root = root ? MJCF_ROOT_FREE : MJCF_ROOT_HINGE;
+    assert_null(runner_create(&b, &options, &status, &error));
+    assert_int_equal(status, RUNNER_MODEL);
+    assert_non_null(strstr(error.text, "singular"));
+  }
+}
+
 static void test_keyframe(void **state) {
   (void)state;
   bike_bicycle b = read_shipped("benchmark");
@@ -231,7 +250,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_accidents),      cmocka_unit_test(test_mujoco_error),
       cmocka_unit_test(test_recovery),       cmocka_unit_test(test_bad_definitions),
-      cmocka_unit_test(test_foreign_models), cmocka_unit_test(test_keyframe)};
+      cmocka_unit_test(test_foreign_models), cmocka_unit_test(test_singular_bicycle),
+      cmocka_unit_test(test_keyframe)};
   own_folder folder = enter_own_folder();
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   leave_own_folder(&folder);
