@@ -2,8 +2,9 @@
 // A start that satisfies the constraints, found with MuJoCo's own kinematics.
 //
 // Given lean and steer, the heights of the two discs fix pitch and the height of the rear hub
-// (Newton). Given their rates and the speed, the velocities of the discs' lowest points, which must
-// be zero, and the meaning of the speed fix the other seven rates (linear; rank 6 + 1).
+// (Newton, in stages from upright: there may be several answers). Given their rates and the speed,
+// the velocities of the discs' lowest points, which must be zero, and the meaning of the speed fix
+// the other seven rates (linear; rank 6 + 1).
 #include "runner_guard.h"
 #include "runner_internal.h"
 
@@ -12,8 +13,8 @@
 
 enum { YAW, ROLL, PITCH, X = 0, Y, Z, RATES = 7 };
 
-// Newton converges in five steps up to 60 deg of steer and 45 of lean on any sensible bicycle, and
-// stops by itself at rounding; twice that many again and there is no root near.
+// Newton converges in five steps from one stage to the next, and stops by itself at rounding; three
+// times that many again and there is no root near.
 static const int most_iterations = 20;
 
 // Positions and everything derived from them and from the velocities.
@@ -64,9 +65,8 @@ static void height_rates(double out[RUNNER_WHEELS], const start *s, int unknown)
   out[0] = v[2], out[1] = v[5];
 }
 
-static bool find_position(start *s) {
-  double place[3] = {0}, angle[3] = {0, s->state->lean, 0};
-  s->d->qpos[s->r->map.steer.qpos] = s->state->steer;
+// From a pitch and place near the answer.
+static bool improve_position(start *s, double place[3], double angle[3]) {
   for (int i = 0; i < most_iterations; i++) {
     runner_write_posture(s->r, s->d, place, angle);
     refresh(s->r, s->d);
@@ -83,6 +83,19 @@ static bool find_position(start *s) {
     place[Z] -= dz, angle[PITCH] -= dpitch;
     // The rear contact is the origin of the track.
     place[X] -= rear.point[0], place[Y] -= rear.point[1];
+  }
+  return true;
+}
+
+// In stages of at most 0.2 rad of lean and steer, as those of runner_foreign.c.
+static bool find_position(start *s) {
+  double place[3] = {0}, angle[3] = {0};
+  int stages = 1 + (int)(fmax(fabs(s->state->lean), fabs(s->state->steer)) / 0.2);
+  for (int i = 1; i <= stages; i++) {
+    double share = (double)i / stages;
+    angle[ROLL] = share * s->state->lean;
+    s->d->qpos[s->r->map.steer.qpos] = share * s->state->steer;
+    if (!improve_position(s, place, angle)) return false;
   }
   runner_write_posture(s->r, s->d, place, angle);
   refresh(s->r, s->d);

@@ -24,10 +24,13 @@ static term_exit accelerate(double out[2], const engine *e, void *instance, doub
 
 term_exit engine_differences(double A[16], const engine *e, void *instance, double speed,
                              problem *p) {
-  // f'(0) = sum of c_k (f(k h) - f(-k h))/h with an error of h^8 f^(9)/630: with h = 0.02 (rad and
-  // rad/s) 1e-14 of f', below the engine's rounding of 1e-15 divided by h.
+  // f'(0) = sum of c_k (f(k h) - f(-k h))/h with an error of h^8 f^(9)/630. Where f becomes
+  // singular an angle r away (0.3 rad for a trail as long as the wheelbase), that is some 600
+  // (h/r)^8 of f'/r: with h = 0.01 rad 1e-9 there and 1e-14 on the shipped bicycles, beside the
+  // engine's rounding of 1e-15 divided by h. In the rates f is of second degree, so that any h
+  // does.
   static const double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-  static const double h = 0.02;
+  static const double h = 0.01;
   memset(A, 0, 16 * sizeof *A);
   A[2] = A[7] = 1; // steer' and lean' are the rates
   for (int column = 0; column < 4; column++)

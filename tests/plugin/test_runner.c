@@ -5,6 +5,7 @@
 #include "reference/reference.h"
 #include "runner_internal.h"
 #include "support/near.h"
+#include <bicycle/error.h>
 
 static runner *runner_of(const bike_bicycle *bicycle, mjcf_root root) {
   mjcf_options options = mjcf_default_options();
@@ -62,6 +63,26 @@ static void test_speed_is_the_contacts(void **state) {
   assert_true(fabs(hub - 4) > 0.01);
   assert_true(fabs(hinge - 4) > 0.003);
   assert_near(r->probe->qvel[0], hub, 1e-13); // what the definitions could be mistaken for
+  runner_free(r);
+}
+
+// Wheels that all but coincide have many postures: the start is the one that upright leads to.
+static void test_start_follows_upright(void **state) {
+  (void)state;
+  bike_bicycle b = read_shipped("roadster");
+  bike_upright upright;
+  assert_int_equal(bike_upright_position(&upright, &b.geometry), BIKE_OK);
+  b.geometry = bike_geometry_from_wheelbase(0.05, upright.trail, upright.tilt, b.geometry.R_r,
+                                            b.geometry.R_f);
+  for (int i = 0; i < b.part_count; i++)
+    if (b.parts[i].assembly == BIKE_FRONT_WHEEL) b.parts[i].position[0] = 0.05;
+  bike_model model;
+  assert_int_equal(bike_model_init(&model, &b), BIKE_OK);
+  runner *r = runner_of(&b, MJCF_ROOT_HINGE);
+  bike_state s = {.lean = 0.44, .steer = 0.44, .speed = 4};
+  bike_snapshot should;
+  assert_int_equal(bike_evaluate(&should, &model, &s, NULL), BIKE_OK);
+  assert_near(instant_of(r, &s, NULL).pitch, should.pitch, 1e-12); // some 0.5 rad, to rounding
   runner_free(r);
 }
 
@@ -302,6 +323,7 @@ static void test_static_loads(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_start_satisfies_constraints),
                                      cmocka_unit_test(test_speed_is_the_contacts),
+                                     cmocka_unit_test(test_start_follows_upright),
                                      cmocka_unit_test(test_bad_starts),
                                      cmocka_unit_test(test_published_accelerations),
                                      cmocka_unit_test(test_shipped_agree),

@@ -3,6 +3,8 @@
 #include "support/near.h"
 #include "validate_support.h"
 
+#include <bicycle/error.h>
+#include <bicycle/variant.h>
 #include <metrics.h>
 #include <modes.h>
 #include <report.h>
@@ -150,6 +152,28 @@ static void test_modes(void **state) {
   support_close(f);
 }
 
+// A trail as long as the wheelbase brings a singular steer so near that it limits the differences.
+static void test_modes_of_a_long_trail(void **state) {
+  (void)state;
+  support_run *f = calloc(1, sizeof *f);
+  assert_non_null(f);
+  f->folder = support_folder();
+  support_read_scenario(
+      &f->scenario, f->folder,
+      "title: modes\nbicycle: roadster\nstart: {speed: 5}\nduration: 0.1\nsample: 0.1\n"
+      "instants: {count: 0}\nreference: {engine: analytic}\ncandidate: {engine: mujoco}\n"
+      "linear: {speeds: [1, 8], count: 8}\n"
+      "gates:\n  - {layer: L1, metric: relative, limit: 1e-8, reason: test}\n");
+  bike_bicycle shipped = f->scenario.bicycle;
+  problem p = {""};
+  assert_int_equal(
+      bike_vary(&f->scenario.bicycle, &shipped, BIKE_VARY_TRAIL, 1.11, BIKE_FRONT_IN_SPACE),
+      BIKE_OK);
+  assert_int_equal(comparison_open(&f->comparison, &f->scenario, &p), TERM_DONE);
+  assert_string_equal(support_play(f)->cause, "");
+  support_close(f);
+}
+
 static void test_modes_are_matched(void **state) {
   (void)state;
   const bike_eigenvalues a = {{1, 0.5, 0.5, -3}, {0, 2, -2, 0}};
@@ -270,6 +294,7 @@ int main(void) {
       cmocka_unit_test(test_contact_is_another_model),
       cmocka_unit_test(test_convergence_refusals),
       cmocka_unit_test(test_modes),
+      cmocka_unit_test(test_modes_of_a_long_trail),
       cmocka_unit_test(test_modes_are_matched),
       cmocka_unit_test(test_horizon),
       cmocka_unit_test(test_horizon_needs_a_limit),
