@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "problem.h"
 
+#include "files/message.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +11,7 @@ term_exit problem_set(problem *p, term_exit code, const char *format, ...) {
   problem said; // the arguments may be of `p`
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(said.text, sizeof said.text, format, arguments);
+  bike_message_fit(said.text, sizeof said.text, format, arguments);
   va_end(arguments);
   memcpy(p->text, said.text, strlen(said.text) + 1);
   return code;

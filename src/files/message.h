@@ -4,6 +4,13 @@
 #define FILES_MESSAGE_H
 
 #include <bicycle/file.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+// vsnprintf, but what does not fit is left out after the first quarter: a path may be of any
+// length, and the reason stands behind it. size >= 16.
+void bike_message_fit(char *out, size_t size, const char *format, va_list arguments)
+    __attribute__((format(printf, 3, 0)));
 
 // Writes one line into `error` (may be NULL): control characters become '?', so that what a broken
 // file holds cannot break the line or the terminal. Returns `code`.

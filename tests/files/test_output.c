@@ -120,6 +120,28 @@ static void refuses(void **state) {
   check_refused("", "No such file or directory");
 }
 
+// However long the path, the reason behind it is told; a character of two bytes is not cut.
+static void long_paths_keep_their_reason(void **state) {
+  (void)state;
+  static const char reason[] = ": File name too long", more[] = "\303\244/"; // a umlaut
+  char path[6001] = "";
+  for (int shift = 0; shift < 3; shift++) { // the cut falls on each of its bytes
+    memset(path, 'p', sizeof path - 1);
+    for (size_t i = (size_t)shift; i + 4 < sizeof path; i += 3) memcpy(path + i, more, 3);
+    bike_output o;
+    bike_file_error error = {""};
+    assert_int_equal(bike_output_begin(&o, path, &error), BIKE_ERROR_FILE);
+    const size_t length = strlen(error.text);
+    assert_true(length < sizeof error.text && length > sizeof error.text - 8);
+    assert_string_equal(error.text + length - strlen(reason), reason);
+    assert_memory_equal(error.text, path, 200);
+    const char *gap = strstr(error.text, "...");
+    assert_non_null(gap);
+    assert_int_not_equal((unsigned char)gap[-1], 0xc3);       // begun
+    assert_int_not_equal((unsigned char)gap[3] & 0xc0, 0x80); // ended
+  }
+}
+
 static void refuses_without_permission(void **state) {
   (void)state;
   scratch_write("locked", "old");
@@ -211,6 +233,7 @@ int main(void) {
       cmocka_unit_test(aborts),
       cmocka_unit_test(follows_links),
       cmocka_unit_test(refuses),
+      cmocka_unit_test(long_paths_keep_their_reason),
       cmocka_unit_test(refuses_without_permission),
       cmocka_unit_test(cleans_up_a_failed_commit),
       cmocka_unit_test(notices_failed_writes),
