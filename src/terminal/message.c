@@ -3,6 +3,7 @@
 
 #include <bicycle/error.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -28,8 +29,10 @@ static void check_stdout(int status, void *unused) {
 void term_begin(const char *program) {
   static bool begun = false;
   program_name = program;
-  if (!begun) on_exit(check_stdout, NULL);
+  if (begun) return;
   begun = true;
+  on_exit(check_stdout, NULL);
+  signal(SIGXFSZ, SIG_IGN); // a limit on files (ulimit -f) is then an error of the write, told
 }
 
 const char *term_program(void) {

@@ -6,8 +6,8 @@
 #include "terminal/exit_code.h"
 
 // Names the program in messages and makes sure that results which could not be written to stdout
-// (a full disk, a closed pipe) end the program with TERM_USAGE. Call it first in main; `program`
-// must stay valid.
+// (a full disk, a closed pipe) end the program with TERM_USAGE, and that a limit on the size of
+// files is an error like a full disk. Call it first in main; `program` must stay valid.
 void term_begin(const char *program);
 
 // The name in force, as in "bicycle state".

@@ -100,6 +100,9 @@ static const run_wrong commands[] = {
     {"bicycle state roadster --speed 5 > /dev/full", "No space left"},
     {"bicycle state roadster --speed 5 --json > /dev/full", "No space left"},
     {"bicycle stability roadster > /dev/full", "No space left"},
+    {"ulimit -f 1; bicycle ride roadster --speed 6 --time 1 --sample 0.01 -o out.csv",
+     "File too large"},
+    {"ulimit -f 1; bicycle draw roadster -o out.svg", "out.svg: File too large"},
     {"bicycle --help > /dev/full", "No space left"},
     {"bicycle state --help > /dev/full", "No space left"},
 };
