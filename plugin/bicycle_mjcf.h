@@ -101,7 +101,8 @@ char *mjcf_readme_text(const bike_bicycle *bicycle, const mjcf_options *options,
 int mjcf_placeholder_count(const bike_bicycle *bicycle, const mjcf_options *options);
 
 // Compiles MJCF text, or the file (.xml or .mjb), and applies exact tensors (below). NULL with a
-// text in `error`; never exits. The compiler of MuJoCo 2.2 keeps its last model globally: threads
+// text in `error`, also where a custom element looks like a marker of rolling.h and is none
+// (ROLL_BAD_NAME); never exits. The compiler of MuJoCo 2.2 keeps its last model globally: threads
 // that call these wait for each other.
 mjModel *mjcf_compile(const char *text, mjcf_error *error);
 mjModel *mjcf_compile_scene(const char *scene, const char *model_file, const char *model,

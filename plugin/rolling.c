@@ -47,7 +47,7 @@ static void constrain(const mjModel *m, mjData *d) {
   mjMARKSTACK;
   roll_system system;
   roll_error error = roll_build_system(&system, m, d);
-  if (error) roll_warn(ROLL_SAY_DISC, roll_error_string(error), m, d);
+  if (error) roll_warn_of(ROLL_SAY_DISC, error, system.fault, m, d);
   if (system.rows) {
     roll_set_target(&system, m, d);
     roll_set_lambda(&system, m, d);
@@ -81,6 +81,8 @@ static void warn_of_sensors(const mjModel *m, const mjData *d) {
 
 void roll_make_roll(const mjModel *m, mjData *d) {
   roll_marker marker = roll_find_marker(m);
+  roll_object where;
+  if (roll_check_names(&where, m)) roll_warn_of(ROLL_SAY_NAME, ROLL_BAD_NAME, where, m, d);
   if (!roll_is_marked(&marker)) return;
   constrain(m, d);
   warn_of_sensors(m, d);

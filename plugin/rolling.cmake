@@ -4,6 +4,7 @@
 #   mujoco_rolling         libmujoco_rolling.so, which installs itself when loaded
 set(rolling_sources
   rolling.c
+  rolling_check.c
   rolling_cholesky.c
   rolling_contact.c
   rolling_drive.c

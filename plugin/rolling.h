@@ -38,6 +38,10 @@
 // <general name="rolling:JOINT:work" joint="JOINT" dyntype="user" gainprm="0"/>, integrated by
 // MuJoCo with the motion (exact while MuJoCo has no constraints of its own; a warning otherwise).
 //
+// Names. No other tuple, numeric or text may have a name that begins with "rolling_", no numeric
+// "driven:JOINT" and no actuator "rolling:JOINT:work" may name a joint that is not driven: a slip
+// of the pen would be passed over in silence.
+//
 // Sensors:  <user name="rolling:NAME:QUANTITY" objtype= objname= datatype="real" dim=
 // needstage="acc"/>, where NAME
 // is a disc, skate or driven joint and the object any at all (MuJoCo wants one). Quantities of
@@ -83,6 +87,8 @@ extern "C" {
 #define ROLL_ERRORS(X)                                                                             \
   X(ROLL_OK, "no error")                                                                           \
   X(ROLL_NO_MARKER, "the model has no tuple 'rolling_discs', 'rolling_skates', 'rolling_driven'")  \
+  X(ROLL_BAD_NAME, "a custom element's name begins with 'rolling_' but is none of the tuples "     \
+                   "rolling_discs, rolling_skates, rolling_driven")                                \
   X(ROLL_BAD_OBJECT, "rolling_discs: an element is no body, geom or site")                         \
   X(ROLL_BAD_SKATE, "rolling_skates: an element is no geom or site")                               \
   X(ROLL_BAD_JOINT, "rolling_driven: an element is no slide or hinge joint")                       \
@@ -90,6 +96,9 @@ extern "C" {
   X(ROLL_BAD_GROUND, "rolling discs: the ground's plane belongs to a body that can move")          \
   X(ROLL_BAD_DRIVE, "rolling_driven: a joint's motion is neither in a numeric 'driven:JOINT' "     \
                     "(offset, then amplitude, rad/s, phase) nor in three userdata from prm on")    \
+  X(ROLL_NOT_DRIVEN, "a numeric 'driven:JOINT' names no joint of the tuple rolling_driven")        \
+  X(ROLL_BAD_ACTUATOR, "an actuator 'rolling:JOINT:work' names no joint of the tuple "             \
+                       "rolling_driven, or its dyntype is not user")                               \
   X(ROLL_BAD_SENSOR, "a sensor 'rolling:NAME:QUANTITY' names nothing that rolls, has a wrong "     \
                      "dimension or does not need stage acc")                                       \
   X(ROLL_FIXED_BODY, "rolling discs: a disc belongs to a body that cannot move")                   \
@@ -117,10 +126,22 @@ ROLL_API int roll_disc_count(const mjModel *m);
 // Number of marked driven joints, driven or not.
 ROLL_API int roll_drive_count(const mjModel *m);
 
-// Checks marker and sensors: the first error found and, where `element` is not NULL, what it is in:
-// discs, then skates, then driven joints, counted from 0 in the order of the model; of
-// ROLL_BAD_SENSOR the sensor's id (-1: none of them). ROLL_NO_MARKER for a model without any tuple.
-ROLL_API roll_error roll_check(int *element, const mjModel *m);
+// An element of a model.
+typedef struct roll_object {
+  int type; // an mjtObj; mjOBJ_UNKNOWN: none
+  int id;
+} roll_object;
+
+// Checks what the model says to this library: names of custom elements, discs, skates, driven
+// joints with their motions and actuators, sensors. The first error found and, where `where` is not
+// NULL, what it is in: a tuple, numeric or text, the body, geom, site or joint that is marked, an
+// actuator or a sensor. ROLL_NO_MARKER for a model without any of the tuples.
+ROLL_API roll_error roll_check(roll_object *where, const mjModel *m);
+
+// An error and what it is in as one line of at most size - 1 bytes, such as
+// "rolling_discs: the last joint of a disc's body is not a hinge (body 'wheel')". Returns `text`.
+ROLL_API const char *roll_fault_string(char *text, int size, roll_error error, roll_object where,
+                                       const mjModel *m);
 
 //---------------------------------- what the discs do ---------------------------------------------
 

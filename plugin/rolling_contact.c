@@ -42,16 +42,16 @@ static void set_directions(roll_contact *c) {
   mju_scl3(c->direction[1], c->direction[1], 1 / c->sine);
 }
 
-roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel,
-                              const roll_plane *ground, const mjData *d) {
-  const mjtNum *u = ground->normal, *n = contact->axle;
+roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel, int ground,
+                              const mjData *d) {
+  const mjtNum *u = contact->ground.normal, *n = contact->axle;
   mjtNum hub[3];
   find_hub(hub, wheel, d);
   find_axle(contact->axle, wheel, d);
   contact->body = wheel->body;
   contact->skate = wheel->skate;
   contact->radius = wheel->radius;
-  contact->ground = *ground;
+  contact->ground = roll_read_ground(d, ground);
 
   // s = |n x u|
   mjtNum across[3], from_origin[3];
@@ -65,7 +65,7 @@ roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel,
     contact->down[k] = -(u[k] - cosine * n[k]) / s;
     contact->point[k] = hub[k] + wheel->radius * contact->down[k];
   }
-  mju_sub3(from_origin, hub, ground->origin);
+  mju_sub3(from_origin, hub, contact->ground.origin);
   contact->height = mju_dot3(from_origin, u) - wheel->radius * s;
   set_directions(contact);
   return ROLL_OK;

@@ -5,14 +5,18 @@
 #include <math.h>
 #include <string.h>
 
+// JOINT of a numeric "driven:JOINT"; NULL of any other.
+static const char *joint_of(const mjModel *m, int numeric) {
+  static const char prefix[] = "driven:";
+  const char *name = m->names + m->name_numericadr[numeric];
+  return strncmp(name, prefix, sizeof prefix - 1) == 0 ? name + sizeof prefix - 1 : NULL;
+}
+
 // Id of the numeric "driven:JOINT"; -1 without.
 static int find_numeric(const mjModel *m, const char *joint) {
-  static const char prefix[] = "driven:";
   for (int i = 0; i < m->nnumeric; i++) {
-    const char *name = m->names + m->name_numericadr[i];
-    if (strncmp(name, prefix, sizeof prefix - 1) == 0 &&
-        strcmp(name + sizeof prefix - 1, joint) == 0)
-      return i;
+    const char *name = joint_of(m, i);
+    if (name && strcmp(name, joint) == 0) return i;
   }
   return -1;
 }
@@ -45,6 +49,16 @@ static roll_error check(int *numeric, const mjModel *m, int address) {
 roll_error roll_check_drive(const mjModel *m, int address) {
   int numeric;
   return check(&numeric, m, address);
+}
+
+roll_error roll_check_motions(roll_object *where, const mjModel *m) {
+  for (int i = 0; i < m->nnumeric; i++) {
+    const char *joint = joint_of(m, i);
+    if (!joint || roll_find_drive(m, joint, (int)strlen(joint)) >= 0) continue;
+    *where = (roll_object){mjOBJ_NUMERIC, i};
+    return ROLL_NOT_DRIVEN;
+  }
+  return ROLL_OK;
 }
 
 // w = offset + sum a sin(omega t + phase)

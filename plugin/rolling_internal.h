@@ -17,6 +17,17 @@ typedef struct roll_marker {
   roll_span discs, skates, driven;
 } roll_marker;
 
+// What the name of a custom element says.
+typedef enum roll_kind {
+  ROLL_KIND_FOREIGN, // nothing to this library
+  ROLL_KIND_DISCS,
+  ROLL_KIND_SKATES,
+  ROLL_KIND_DRIVEN,
+  ROLL_KIND_UNKNOWN // "rolling_" and a word that means nothing
+} roll_kind;
+
+roll_kind roll_kind_of(const char *name);
+
 typedef struct roll_wheel {
   int body;      // id of the body the disc is part of
   int objtype;   // of what marks it: mjOBJ_BODY, mjOBJ_GEOM or mjOBJ_SITE; its origin is the hub
@@ -41,14 +52,21 @@ int roll_is_ground(const mjModel *m, int address);
 // Discs or skates in a span: all elements but planes.
 int roll_count_wheels(const mjModel *m, roll_span span);
 
-roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int skate);
+// A disc or skate on the plane of a geom; ground -1 is the floor z = 0.
+roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int ground, int skate);
+roll_plane roll_read_ground(const mjData *d, int ground);
 
-// ROLL_BAD_GROUND for a plane that can move; geom -1 is the floor z = 0.
-roll_error roll_check_ground(const mjModel *m, int geom);
-roll_plane roll_read_ground(const mjData *d, int geom);
+// What an error of a disc or skate is in: its element, or the plane.
+roll_object roll_wheel_fault(roll_error error, const mjModel *m, int address, int ground);
 
-// Name of what an element marks; "" without one.
+// What an element marks, and its name; "" without one.
+roll_object roll_element(const mjModel *m, int address);
 const char *roll_element_name(const mjModel *m, int address);
+
+//---------------------------------- before it is run (rolling_check.c) ----------------------------
+
+// ROLL_BAD_NAME for a custom element that looks like a marker and is none: it would be passed over.
+roll_error roll_check_names(roll_object *where, const mjModel *m);
 
 //---------------------------------- one contact (rolling_contact.c) -------------------------------
 
@@ -73,9 +91,9 @@ typedef struct roll_contact {
   mjtNum sideways_rate[3]; // 3x1 rate of a blade's sideways direction, 1/s
 } roll_contact;
 
-// Position part. Needs mj_kinematics.
-roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel,
-                              const roll_plane *ground, const mjData *d);
+// Position part, on the plane of a geom or (-1) the floor. Needs mj_kinematics.
+roll_error roll_place_contact(roll_contact *contact, const roll_wheel *wheel, int ground,
+                              const mjData *d);
 
 // Velocity part. Needs mj_comPos and mj_comVel.
 void roll_move_contact(roll_contact *contact, const mjModel *m, const mjData *d);
@@ -96,6 +114,9 @@ typedef struct roll_motion {
 
 // What is wrong with an element of rolling_driven.
 roll_error roll_check_drive(const mjModel *m, int address);
+
+// ROLL_NOT_DRIVEN for a numeric "driven:JOINT" that gives its motion to no joint.
+roll_error roll_check_motions(roll_object *where, const mjModel *m);
 
 // Prescribed motion at d->time, and the joint's distance from it.
 roll_error roll_read_motion(roll_motion *motion, const mjModel *m, const mjData *d);
@@ -127,6 +148,8 @@ typedef struct roll_system {
   int contacts;          // number of marked discs and skates
   int motions;           // number of marked driven joints
   int rows;              // of those that hold at this moment
+  roll_error error;      // of the first that does not, but for ROLL_NO_STACK
+  roll_object fault;     // what that is in
   roll_contact *contact; // contacts
   roll_motion *motion;   // motions
   mjtNum *J;             // rows x nv: velocity at the contact points; velocity of driven joints
@@ -192,9 +215,13 @@ void roll_sense(const mjModel *m, mjData *d);
 // rolling_work.c: the rate of the activation that holds a drive's work, W; 0 for other actuators.
 int roll_work_rate(mjtNum *power, const mjModel *m, mjData *d, int actuator);
 
+// ROLL_BAD_ACTUATOR for one that would hold the work of nothing.
+roll_error roll_check_actuators(roll_object *where, const mjModel *m);
+
 //---------------------------------- messages (rolling_error.c) ------------------------------------
 
 typedef enum roll_message {
+  ROLL_SAY_NAME,
   ROLL_SAY_DISC,
   ROLL_SAY_REPEATED,
   ROLL_SAY_START,
@@ -206,6 +233,10 @@ typedef enum roll_message {
 // mju_warning, once in the life of the program for each message, never before the second step.
 void roll_warn(roll_message message, const char *text, const mjModel *m, const mjData *d);
 
+// The same of an error and what it is in.
+void roll_warn_of(roll_message message, roll_error error, roll_object where, const mjModel *m,
+                  const mjData *d);
+
 //---------------------------------- names (rolling_name.c) ----------------------------------------
 
 // Takes "rolling:NAME:QUANTITY" apart: its quantity, and the length of NAME, which starts at
@@ -216,7 +247,7 @@ const char *roll_split_name(int *length, const char *name);
 int roll_find_wheel(const mjModel *m, const char *name, int length);
 int roll_find_drive(const mjModel *m, const char *name, int length);
 
-// What is wrong with the user sensors of the model, and the id of the first that is.
-roll_error roll_check_sensors(int *sensor, const mjModel *m);
+// What is wrong with the user sensors of the model, and the first that is.
+roll_error roll_check_sensors(roll_object *where, const mjModel *m);
 
 #endif

@@ -6,17 +6,23 @@
 #include <math.h>
 #include <string.h>
 
-roll_marker roll_find_marker(const mjModel *m) {
+roll_kind roll_kind_of(const char *name) {
   static const char prefix[] = "rolling_";
+  if (strncmp(name, prefix, sizeof prefix - 1) != 0) return ROLL_KIND_FOREIGN;
+  const char *word = name + sizeof prefix - 1;
+  if (strcmp(word, "discs") == 0) return ROLL_KIND_DISCS;
+  if (strcmp(word, "skates") == 0) return ROLL_KIND_SKATES;
+  return strcmp(word, "driven") == 0 ? ROLL_KIND_DRIVEN : ROLL_KIND_UNKNOWN;
+}
+
+roll_marker roll_find_marker(const mjModel *m) {
   roll_marker marker = {{0, 0}, {0, 0}, {0, 0}};
   for (int i = 0; i < m->ntuple; i++) {
-    const char *name = m->names + m->name_tupleadr[i];
-    if (strncmp(name, prefix, sizeof prefix - 1) != 0) continue;
-    const char *kind = name + sizeof prefix - 1;
+    roll_kind kind = roll_kind_of(m->names + m->name_tupleadr[i]);
     roll_span span = {m->tuple_adr[i], m->tuple_size[i]};
-    if (strcmp(kind, "discs") == 0) marker.discs = span;
-    if (strcmp(kind, "skates") == 0) marker.skates = span;
-    if (strcmp(kind, "driven") == 0) marker.driven = span;
+    if (kind == ROLL_KIND_DISCS) marker.discs = span;
+    if (kind == ROLL_KIND_SKATES) marker.skates = span;
+    if (kind == ROLL_KIND_DRIVEN) marker.driven = span;
   }
   return marker;
 }
@@ -36,25 +42,30 @@ int roll_count_wheels(const mjModel *m, roll_span span) {
   return count;
 }
 
+roll_object roll_element(const mjModel *m, int address) {
+  return (roll_object){m->tuple_objtype[address], m->tuple_objid[address]};
+}
+
 const char *roll_element_name(const mjModel *m, int address) {
-  const char *name = mj_id2name(m, m->tuple_objtype[address], m->tuple_objid[address]);
+  roll_object object = roll_element(m, address);
+  const char *name = mj_id2name(m, object.type, object.id);
   return name ? name : "";
 }
 
 //---------------------------------- ground --------------------------------------------------------
 
-roll_error roll_check_ground(const mjModel *m, int geom) {
-  if (geom < 0) return ROLL_OK;
-  int body = m->geom_bodyid[geom], moves = m->body_weldid[body] != 0;
+static int moves(const mjModel *m, int ground) {
+  if (ground < 0) return 0;
+  int body = m->geom_bodyid[ground], moves = m->body_weldid[body] != 0;
   for (; body > 0; body = m->body_parentid[body]) moves |= m->body_mocapid[body] >= 0;
-  return moves ? ROLL_BAD_GROUND : ROLL_OK;
+  return moves;
 }
 
-roll_plane roll_read_ground(const mjData *d, int geom) {
+roll_plane roll_read_ground(const mjData *d, int ground) {
   roll_plane plane = {{0, 0, 0}, {0, 0, 1}};
-  if (geom < 0) return plane;
-  const mjtNum *R = d->geom_xmat + 9 * geom;
-  mju_copy3(plane.origin, d->geom_xpos + 3 * geom);
+  if (ground < 0) return plane;
+  const mjtNum *R = d->geom_xmat + 9 * ground;
+  mju_copy3(plane.origin, d->geom_xpos + 3 * ground);
   for (int k = 0; k < 3; k++) plane.normal[k] = R[3 * k + 2];
   return plane;
 }
@@ -111,7 +122,8 @@ static int body_of(const mjModel *m, int objtype, int objid) {
   }
 }
 
-roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int skate) {
+roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int ground,
+                           int skate) {
   int type = wheel->objtype = m->tuple_objtype[address];
   int id = wheel->objid = m->tuple_objid[address];
   wheel->skate = skate;
@@ -125,7 +137,11 @@ roll_error roll_read_wheel(roll_wheel *wheel, const mjModel *m, int address, int
   if (!has_size || !isfinite(wheel->radius)) return ROLL_BAD_RADIUS;
   if (m->body_weldid[wheel->body] == 0) return ROLL_FIXED_BODY;
   if (wheel->hinge < 0 && type == mjOBJ_BODY) return ROLL_NO_AXLE;
-  return ROLL_OK;
+  return moves(m, ground) ? ROLL_BAD_GROUND : ROLL_OK;
+}
+
+roll_object roll_wheel_fault(roll_error error, const mjModel *m, int address, int ground) {
+  return error == ROLL_BAD_GROUND ? (roll_object){mjOBJ_GEOM, ground} : roll_element(m, address);
 }
 
 //---------------------------------- for the host --------------------------------------------------
@@ -137,40 +153,4 @@ int roll_disc_count(const mjModel *m) {
 
 int roll_drive_count(const mjModel *m) {
   return roll_find_marker(m).driven.count;
-}
-
-// First error among the wheels of a span; *index counts on through them and ends at the faulty one.
-static roll_error check_wheels(int *index, const mjModel *m, roll_span span, int skate) {
-  int ground = -1;
-  for (int address = span.first; address < span.first + span.count; address++) {
-    if (roll_is_ground(m, address)) {
-      ground = m->tuple_objid[address];
-      continue;
-    }
-    roll_wheel wheel;
-    roll_error error = roll_read_wheel(&wheel, m, address, skate);
-    if (!error) error = roll_check_ground(m, ground);
-    if (error) return error;
-    ++*index;
-  }
-  return ROLL_OK;
-}
-
-static roll_error check_drives(int *index, const mjModel *m, roll_span span) {
-  for (int i = 0; i < span.count; i++, ++*index) {
-    roll_error error = roll_check_drive(m, span.first + i);
-    if (error) return error;
-  }
-  return ROLL_OK;
-}
-
-roll_error roll_check(int *element, const mjModel *m) {
-  roll_marker marker = roll_find_marker(m);
-  int index = 0;
-  roll_error error = check_wheels(&index, m, marker.discs, 0);
-  if (!error) error = check_wheels(&index, m, marker.skates, 1);
-  if (!error) error = check_drives(&index, m, marker.driven);
-  if (!error) error = roll_is_marked(&marker) ? roll_check_sensors(&index, m) : ROLL_NO_MARKER;
-  if (element) *element = error && error != ROLL_NO_MARKER ? index : -1;
-  return error;
 }

@@ -80,10 +80,13 @@ static int read_question(question *q, const mjModel *m, int sensor) {
   return 1;
 }
 
-roll_error roll_check_sensors(int *sensor, const mjModel *m) {
+roll_error roll_check_sensors(roll_object *where, const mjModel *m) {
   question q;
-  for (*sensor = 0; *sensor < m->nsensor; ++*sensor)
-    if (read_question(&q, m, *sensor) && !q.quantity) return ROLL_BAD_SENSOR;
+  for (int i = 0; i < m->nsensor; i++) {
+    if (!read_question(&q, m, i) || q.quantity) continue;
+    *where = (roll_object){mjOBJ_SENSOR, i};
+    return ROLL_BAD_SENSOR;
+  }
   return ROLL_OK;
 }
 
@@ -123,7 +126,7 @@ static void answer_all(const roll_system *s, const mjModel *m, mjData *d) {
     if (q.quantity)
       answer(d->sensordata + m->sensor_adr[i], &q, s, m, d);
     else
-      roll_warn(ROLL_SAY_SENSOR, roll_error_string(ROLL_BAD_SENSOR), m, d);
+      roll_warn_of(ROLL_SAY_SENSOR, ROLL_BAD_SENSOR, (roll_object){mjOBJ_SENSOR, i}, m, d);
   }
 }
 

@@ -62,18 +62,24 @@ static void turn_rows(mjtNum *J, const roll_contact *contact, int nv) {
   }
 }
 
+static void note_error(roll_system *s, roll_error error, roll_object where) {
+  if (s->error) return; // the first is told of
+  s->error = error;
+  s->fault = where;
+}
+
 // Contact and rows of one disc or skate.
 static void add_wheel(roll_system *s, int skate, int address, int ground, const mjModel *m,
                       const mjData *d) {
   roll_contact *contact = s->contact + s->contacts++;
   contact->address = address;
   roll_wheel wheel;
-  contact->error = roll_read_wheel(&wheel, m, address, skate);
-  if (!contact->error) contact->error = roll_check_ground(m, ground);
-  if (contact->error) return;
-  roll_plane plane = roll_read_ground(d, ground);
-  contact->error = roll_place_contact(contact, &wheel, &plane, d);
-  if (contact->error) return;
+  contact->error = roll_read_wheel(&wheel, m, address, ground, skate);
+  if (!contact->error) contact->error = roll_place_contact(contact, &wheel, ground, d);
+  if (contact->error) {
+    note_error(s, contact->error, roll_wheel_fault(contact->error, m, address, ground));
+    return;
+  }
   mjtNum *J = s->J + s->rows * s->nv;
   contact->row = s->rows;
   mj_jac(m, d, J, NULL, contact->point, contact->body);
@@ -97,7 +103,10 @@ static void add_motions(roll_system *s, roll_span span, const mjModel *m, const 
     roll_motion *motion = s->motion + s->motions++;
     motion->address = span.first + i;
     motion->error = roll_read_motion(motion, m, d);
-    if (motion->error) continue;
+    if (motion->error) {
+      note_error(s, motion->error, roll_element(m, motion->address));
+      continue;
+    }
     mjtNum *J = s->J + s->rows * s->nv;
     mju_zero(J, s->nv);
     J[motion->dof] = 1;
@@ -105,18 +114,13 @@ static void add_motions(roll_system *s, roll_span span, const mjModel *m, const 
   }
 }
 
-static roll_error first_error(const roll_system *s) {
-  for (int i = 0; i < s->contacts; i++)
-    if (s->contact[i].error) return s->contact[i].error;
-  for (int i = 0; i < s->motions; i++)
-    if (s->motion[i].error) return s->motion[i].error;
-  return ROLL_OK;
-}
-
 roll_error roll_build_system(roll_system *s, const mjModel *m, mjData *d) {
   roll_marker marker = roll_find_marker(m);
   int wheels = roll_count_wheels(m, marker.discs) + roll_count_wheels(m, marker.skates);
-  *s = (roll_system){.nv = m->nv, .contacts = wheels, .motions = marker.driven.count};
+  *s = (roll_system){.nv = m->nv,
+                     .contacts = wheels,
+                     .motions = marker.driven.count,
+                     .fault = {mjOBJ_UNKNOWN, -1}};
   roll_error error = take_memory(s, d);
   s->contacts = s->motions = 0; // counted again while they are added
   if (error) return error;
@@ -126,5 +130,5 @@ roll_error roll_build_system(roll_system *s, const mjModel *m, mjData *d) {
   add_motions(s, marker.driven, m, d);
   mj_solveM2(m, d, s->Y, s->J, s->rows);
   roll_factor_system(s);
-  return first_error(s);
+  return s->error;
 }

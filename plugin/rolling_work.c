@@ -5,18 +5,30 @@
 
 #include <string.h>
 
-// Index of the driven joint whose work the actuator holds; -1 for any other actuator.
-static int find_worker(const mjModel *m, int actuator) {
+// Whether an actuator asks for work, and of which driven joint: its index, -1 of none.
+static int asks_for_work(int *drive, const mjModel *m, int actuator) {
   int length;
   const char *name = m->names + m->name_actuatoradr[actuator];
   const char *quantity = roll_split_name(&length, name);
-  if (!quantity || strcmp(quantity, "work") != 0) return -1;
-  return roll_find_drive(m, name + (quantity - name) - length - 1, length);
+  if (!quantity) return 0;
+  *drive = strcmp(quantity, "work") == 0 ? roll_find_drive(m, quantity - length - 1, length) : -1;
+  return 1;
+}
+
+roll_error roll_check_actuators(roll_object *where, const mjModel *m) {
+  for (int i = 0; i < m->nu; i++) {
+    int drive;
+    if (!asks_for_work(&drive, m, i)) continue;
+    if (drive >= 0 && m->actuator_dyntype[i] == mjDYN_USER) continue;
+    *where = (roll_object){mjOBJ_ACTUATOR, i};
+    return ROLL_BAD_ACTUATOR;
+  }
+  return ROLL_OK;
 }
 
 int roll_work_rate(mjtNum *power, const mjModel *m, mjData *d, int actuator) {
-  int index = find_worker(m, actuator);
-  if (index < 0) return 0;
+  int index;
+  if (!asks_for_work(&index, m, actuator) || index < 0) return 0;
   // The solver's forces, and with them the drive's answer, come after the activations.
   if (d->nefc)
     roll_warn(ROLL_SAY_WORK,

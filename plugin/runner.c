@@ -65,7 +65,9 @@ static runner *create(mjModel *model, double rider_offset, find_map_function *fi
   model->opt.enableflags |= mjENBL_ENERGY;
   r->ride = mj_makeData(model);
   r->probe = mj_makeData(model);
-  if (!r->ride || !r->probe) {
+  r->disc_count = roll_disc_count(model);
+  r->discs = (roll_disc *)calloc((size_t)r->disc_count + 1, sizeof *r->discs);
+  if (!r->ride || !r->probe || !r->discs) {
     *status = RUNNER_MEMORY;
     mjcf_fail(error, "%s", runner_status_string(*status));
     runner_free(r);
@@ -120,6 +122,7 @@ void runner_free(runner *r) {
   if (r->ride) mj_deleteData(r->ride);
   if (r->probe) mj_deleteData(r->probe);
   mj_deleteModel(r->model);
+  free(r->discs);
   free(r);
 }
 

@@ -10,23 +10,6 @@
 
 //---------------------------------- the model -----------------------------------------------------
 
-// What is wrong with a marker, and with which element of it.
-static bool check_marker(const mjModel *m, runner_status *status, mjcf_error *error) {
-  int element;
-  roll_error code = roll_check(&element, m);
-  *status = code == ROLL_NO_MARKER ? RUNNER_MODEL : RUNNER_ARGUMENT;
-  if (code == ROLL_OK) return true;
-  if (element < 0) return mjcf_fail(error, "%s", roll_error_string(code));
-  if (code == ROLL_BAD_SENSOR)
-    return mjcf_fail(error, "%s (sensor '%s')", roll_error_string(code),
-                     m->names + m->name_sensoradr[element]);
-  int discs = roll_disc_count(m);
-  bool driven = element >= discs;
-  return mjcf_fail(error, "%s (%s %d of the model)", roll_error_string(code),
-                   driven ? "driven joint" : "disc or skate",
-                   1 + (driven ? element - discs : element));
-}
-
 static bool allocate(runner_any *r) {
   r->ride = mj_makeData(r->model);
   r->probe = mj_makeData(r->model);
@@ -37,25 +20,31 @@ static bool allocate(runner_any *r) {
   return r->ride && r->probe && r->discs && r->drives;
 }
 
+// Takes the model over.
+static runner_any *create(mjModel *model) {
+  runner_any *r = (runner_any *)calloc(1, sizeof *r);
+  if (!r) mj_deleteModel(model);
+  if (r) r->model = model;
+  if (r && allocate(r)) return r;
+  runner_any_free(r);
+  return NULL;
+}
+
 runner_any *runner_any_load(const char *path, runner_status *status, mjcf_error *error) {
   *status = RUNNER_MODEL;
   mjModel *model = mjcf_load(path, error);
   if (!model) return NULL;
-  runner_any *r = (runner_any *)calloc(1, sizeof *r);
-  if (r) r->model = model;
-  bool right = r && check_marker(model, status, error);
-  if (!r) mj_deleteModel(model);
-  if (!r || (right && !allocate(r))) {
-    *status = RUNNER_MEMORY;
-    right = mjcf_fail(error, "%s", runner_status_string(*status));
-  }
-  if (!right) {
-    runner_any_free(r);
+  roll_error marker = runner_check_marker(model, error);
+  if (marker != ROLL_OK) {
+    mj_deleteModel(model);
+    *status = marker == ROLL_NO_MARKER ? RUNNER_MODEL : RUNNER_ARGUMENT;
     return NULL;
   }
+  runner_any *r = create(model);
+  *status = r ? RUNNER_OK : RUNNER_MEMORY;
+  if (!r) return mjcf_fail(error, "%s", runner_status_string(*status)), NULL;
   model->opt.enableflags |= mjENBL_ENERGY;
   runner_install_control();
-  *status = RUNNER_OK;
   return r;
 }
 
@@ -118,10 +107,7 @@ static bool keeps_the_ground(const roll_disc *disc) {
 
 static bool all_can_roll(const runner_any *r, mjcf_error *error) {
   double time = r->probe->time;
-  for (int i = 0; i < r->disc_count; i++)
-    if (r->discs[i].error)
-      return mjcf_fail(error, "'%s' at %.6g s: %s", r->discs[i].name, time,
-                       roll_error_string(r->discs[i].error));
+  if (!runner_discs_roll(r->discs, r->disc_count, time, error)) return false;
   for (int i = 0; i < r->drive_count; i++)
     if (r->drives[i].error)
       return mjcf_fail(error, "'%s' at %.6g s: %s", r->drives[i].name, time,

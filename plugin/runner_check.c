@@ -3,8 +3,6 @@
 #include "runner_guard.h"
 #include "runner_internal.h"
 
-#include "rolling.h"
-
 #include <math.h>
 
 const char *runner_status_string(runner_status status) {
@@ -21,6 +19,21 @@ const char *runner_status_string(runner_status status) {
 int runner_exit_code(runner_status status) {
   if (status == RUNNER_OK) return 0;
   return status >= RUNNER_INVALID_ERROR ? 3 : 2;
+}
+
+roll_error runner_check_marker(const mjModel *m, mjcf_error *error) {
+  roll_object where;
+  roll_error code = roll_check(&where, m);
+  if (code != ROLL_OK) roll_fault_string(error->text, sizeof error->text, code, where, m);
+  return code;
+}
+
+bool runner_discs_roll(const roll_disc *discs, int count, double time, mjcf_error *error) {
+  for (int i = 0; i < count; i++)
+    if (discs[i].error)
+      return mjcf_fail(error, "'%s' at %.6g s: %s", discs[i].name, time,
+                       roll_error_string(discs[i].error));
+  return true;
 }
 
 static runner_status fail(mjcf_error *error, runner_status status, double time, const char *more) {

@@ -4,6 +4,7 @@
 #define RUNNER_INTERNAL_H
 
 #include "bicycle_import.h"
+#include "rolling.h"
 #include "runner.h"
 
 enum { RUNNER_REAR, RUNNER_FRONT, RUNNER_WHEELS };
@@ -50,6 +51,8 @@ struct runner {
   mjModel *model;
   mjData *ride;        // what mj_step advances
   mjData *probe;       // where instants are evaluated: measuring leaves no trace in a ride
+  int disc_count;      //
+  roll_disc *discs;    // of exact rolling, as measured last
   runner_map map;      //
   double rider_offset; // m   that the model was built with
   double yaw;          // rad of the instant before: yaw is continuous
@@ -147,6 +150,12 @@ runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *e
 
 // Takes the rounding off the first instant of a ride: what was asked for, and the origin.
 void runner_settle_start(runner_instant *at, const runner *r);
+
+// roll_check, what is wrong named in the text (runner_check.c).
+roll_error runner_check_marker(const mjModel *m, mjcf_error *error);
+
+// Whether all discs rolled at a time; else a text that names the first that did not.
+bool runner_discs_roll(const roll_disc *discs, int count, double time, mjcf_error *error);
 
 // The checks after every call that advances or evaluates (runner_check.c): errors and warnings of
 // MuJoCo, callback, finite numbers.

@@ -2,8 +2,6 @@
 // Finding the bicycle in a model: names, types and directions, each checked.
 #include "runner_internal.h"
 
-#include "rolling.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -92,8 +90,7 @@ static bool find_radii(runner_map *map, const mjModel *m, mjcf_error *error) {
   if (!map->exact) tuple = mj_name2id(m, mjOBJ_TUPLE, "contact_discs");
   if (tuple < 0)
     return mjcf_fail(error, "not a bicycle: there is no tuple 'rolling_discs' or 'contact_discs'");
-  roll_error code = map->exact ? roll_check(NULL, m) : ROLL_OK;
-  if (code != ROLL_OK) return mjcf_fail(error, "%s", roll_error_string(code));
+  if (map->exact && runner_check_marker(m, error) != ROLL_OK) return false;
   return find_radius(&map->wheel[RUNNER_REAR], m, tuple, error) &&
          find_radius(&map->wheel[RUNNER_FRONT], m, tuple, error);
 }
@@ -143,7 +140,7 @@ bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
   if (!(m->jnt_axis[3 * map->steer.joint + 2] > 0))
     return mjcf_fail(error, "not a bicycle: the steering axis does not point upwards");
   if (!find_radii(map, m, error)) return false;
-  if (map->exact) find_rider(&map->rider, m, map->frame); // roll_check has looked at the drive
+  if (map->exact) find_rider(&map->rider, m, map->frame); // its drive is checked
   return true;
 }
 
@@ -171,6 +168,5 @@ bool runner_find_foreign_map(runner_map *map, const mjModel *m, mjcf_error *erro
     wheel->hinge = foreign_hinge(m, found.spin[i], found.spin_sign[i]);
     mju_copy3(wheel->hub, found.hub[i]);
   }
-  roll_error code = exact ? roll_check(NULL, m) : ROLL_OK;
-  return code == ROLL_OK || mjcf_fail(error, "%s", roll_error_string(code));
+  return !exact || runner_check_marker(m, error) == ROLL_OK;
 }

@@ -3,8 +3,6 @@
 #include "runner_guard.h"
 #include "runner_internal.h"
 
-#include "rolling.h"
-
 #include <math.h>
 
 void runner_find_disc(runner_disc *out, const runner *r, const mjData *d, int wheel) {
@@ -54,20 +52,17 @@ static void sum_contacts(double force[3], const runner *r, const mjData *d, int 
   }
 }
 
-// Forces of the ground on the wheels, in the world's axes.
-static roll_error find_forces(double force[RUNNER_WHEELS][3], const runner *r, mjData *d) {
+// Forces of the ground on the wheels, in the world's axes; a wheel may be marked more than once.
+static roll_error sum_forces(double force[RUNNER_WHEELS][3], runner *r) {
   if (!r->map.exact) {
-    for (int i = 0; i < RUNNER_WHEELS; i++) sum_contacts(force[i], r, d, r->map.wheel[i].body);
+    for (int i = 0; i < RUNNER_WHEELS; i++)
+      sum_contacts(force[i], r, r->probe, r->map.wheel[i].body);
     return ROLL_OK;
   }
-  enum { MOST = 8 };
-  roll_disc discs[MOST];
-  int count = roll_disc_count(r->model);
-  if (count > MOST) count = MOST;
-  roll_error code = roll_discs(discs, count, r->model, d);
-  for (int i = 0; code == ROLL_OK && i < count; i++)
+  roll_error code = roll_discs(r->discs, r->disc_count, r->model, r->probe);
+  for (int i = 0; i < r->disc_count; i++)
     for (int k = 0; k < RUNNER_WHEELS; k++)
-      if (discs[i].body == r->map.wheel[k].body) mju_copy3(force[k], discs[i].force);
+      if (r->discs[i].body == r->map.wheel[k].body) mju_addTo3(force[k], r->discs[i].force);
   return code;
 }
 
@@ -142,7 +137,7 @@ static void measure(void *argument) {
   runner *r = m->r;
   mj_forward(r->model, r->probe);
   if (r->map.foreign) mj_rnePostConstraint(r->model, r->probe);
-  m->code = find_forces(m->force, r, r->probe);
+  m->code = sum_forces(m->force, r);
 }
 
 runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *error) {
@@ -157,7 +152,8 @@ runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *e
   if (status != RUNNER_OK) return status;
 
   if (m.code != ROLL_OK) {
-    mjcf_fail(error, "%s", roll_error_string(m.code));
+    if (runner_discs_roll(r->discs, r->disc_count, r->probe->time, error)) // then it is a drive
+      mjcf_fail(error, "%s", roll_error_string(m.code));
     return RUNNER_INVALID_WARNING;
   }
   *out = (runner_instant){.potential = r->probe->energy[0],

@@ -31,6 +31,13 @@ static const run_wrong commands[] = {
     {"bicycle mujoco ride sizes.xml -o out.csv" TIMES, "sizes.xml: keyframe 'test'"},
     {"bicycle mujoco ride sizes.xml --project -o out.csv" TIMES, "sizes.xml: "},
     {"bicycle mujoco ride raft.xml -o out.csv" TIMES, "raft.xml: rolling discs: the ground's"},
+    {"bicycle mujoco ride raft.xml -o out.csv" TIMES, "that can move (geom 'raft')"},
+    {"bicycle mujoco ride disks.xml -o out.csv" TIMES, "disks.xml: a custom element's name"},
+    {"bicycle mujoco ride disks.xml -o out.csv" TIMES, "rolling_driven (tuple 'rolling_disks')"},
+    {"bicycle mujoco import disks.xml -o out.yml", "disks.xml: a custom element's name"},
+    {"bicycle mujoco ride sways.xml -o out.csv" TIMES,
+     "sways.xml: a numeric 'driven:JOINT' names no joint of the tuple rolling_driven (numeric "
+     "'driven:ridr')"},
     // Pictures.
     {ROADSTER "--picture x.jpg", "--picture: 'x.jpg'"},
     {ROADSTER "--picture .png", "--picture: '.png'"},
@@ -67,6 +74,9 @@ static int enter(void **state) {
       "set -e; cp " EXAMPLES "disc.xml .; mkdir folder.png; "
       "edit() { sed \"$1\" disc.xml > $2; ! cmp -s disc.xml $2; }; "
       "edit 's/qvel=\"1.5/qvel=\"1.6/' slips.xml; "
+      "edit 's/rolling_discs/rolling_disks/' disks.xml; "
+      "sed 's/driven:rider/driven:ridr/; s|<custom>|<size nuserdata=\"3\"/>&|' " EXAMPLES
+      "sway.xml > sways.xml; "
       "edit 's/objname=\"rim\" /objname=\"nosuch\"/' unknown.xml; "
       "edit 's/type=\"cylinder\" size=\"0.3 0.005\"/type=\"box\" size=\"0.3 0.3 0.01\"/' zero.xml; "
       "edit 's/objname=\"rim\" .>/&<element objtype=\"body\" objname=\"disc\" prm=\"0.2\"\\/>/' "

@@ -58,10 +58,10 @@ static void test_unmarked_model_is_untouched(void **unused) {
   mjcb_control = roll_control;
   assert_memory_equal(with->qpos, without->qpos, sizeof(mjtNum) * m->nq);
   assert_memory_equal(with->qvel, without->qvel, sizeof(mjtNum) * m->nv);
-  int element = 7;
+  roll_object where = {mjOBJ_BODY, 7};
   assert_int_equal(roll_disc_count(m), 0);
-  assert_int_equal(roll_check(&element, m), ROLL_NO_MARKER);
-  assert_int_equal(element, -1);
+  assert_int_equal(roll_check(&where, m), ROLL_NO_MARKER);
+  assert_int_equal(where.type, mjOBJ_UNKNOWN);
   assert_int_equal(roll_discs(NULL, 0, m, with), ROLL_NO_MARKER);
   assert_int_equal(roll_project(m, with), ROLL_NO_MARKER);
   mj_deleteData(with);

@@ -177,7 +177,7 @@ static void disc_text(char out[1500], const char *marker, const char *more, cons
   snprintf(out, 1500,
            "<mujoco><compiler angle=\"radian\"/><option integrator=\"RK4\"/>"
            "<custom><tuple name=\"rolling_discs\">%s</tuple></custom><worldbody>%s"
-           "<body name=\"disc\"><freejoint/><inertial pos=\"0 0 0\" mass=\"2\" "
+           "<body name=\"disc\"><freejoint name=\"free\"/><inertial pos=\"0 0 0\" mass=\"2\" "
            "diaginertia=\"0.045 0.045 0.09\"/><geom name=\"rim\" type=\"cylinder\" "
            "size=\"0.3 0.01\" contype=\"0\" conaffinity=\"0\"/></body></worldbody>"
            "<keyframe><key name=\"test\" %s/></keyframe></mujoco>",
@@ -222,7 +222,9 @@ static void test_faults(void **state) {
       {"<element objtype=\"body\" objname=\"nosuch\"/>", "", UPRIGHT, RUNNER_MODEL, "nosuch"},
       {RIM "<element objtype=\"geom\" objname=\"ball\" prm=\"-1\"/>",
        "<geom name=\"ball\" size=\"1\"/>", UPRIGHT, RUNNER_ARGUMENT,
-       "not a positive number (disc or skate 2 of the model)"},
+       "not a positive number (geom 'ball')"},
+      {RIM "<element objtype=\"body\" objname=\"disc\" prm=\"0.3\"/>", "", UPRIGHT, RUNNER_ARGUMENT,
+       "last joint of a disc's body is not a hinge (body 'disc')"},
       {"<element objtype=\"geom\" objname=\"box\" prm=\"0\"/>",
        "<body><freejoint/><geom name=\"box\" type=\"box\" size=\"1 1 1\"/></body>", "",
        RUNNER_ARGUMENT, "radius"},
@@ -230,7 +232,11 @@ static void test_faults(void **state) {
        RUNNER_ARGUMENT, "cannot move"},
       {"<element objtype=\"geom\" objname=\"raft\"/>" RIM,
        "<body mocap=\"true\"><geom name=\"raft\" type=\"plane\" size=\"1 1 1\"/></body>", UPRIGHT,
-       RUNNER_ARGUMENT, "plane belongs to a body that can move"},
+       RUNNER_ARGUMENT, "plane belongs to a body that can move (geom 'raft')"},
+      {RIM "</tuple><tuple name=\"rolling_plane\">" RIM, "", UPRIGHT, RUNNER_MODEL,
+       "rolling_discs, rolling_skates, rolling_driven (tuple 'rolling_plane')"},
+      {RIM "</tuple><tuple name=\"rolling_driven\"><element objtype=\"joint\" objname=\"free\"/>",
+       "", UPRIGHT, RUNNER_ARGUMENT, "no slide or hinge joint (joint 'free')"},
       {RIM "<element objtype=\"geom\" objname=\"rim\" prm=\"0.2\"/>", "", UPRIGHT, RUNNER_START,
        "off the ground"},
   };

@@ -154,8 +154,9 @@ static void test_bad_definitions(void **state) {
 
 //---------------------------------- models of others ----------------------------------------------
 
-// Writes the benchmark's text with one replacement and loads it.
-static runner_status load_edited(const char *from, const char *to, mjcf_error *error) {
+// The benchmark's text with one replacement, written and loaded.
+static runner *load_edited(const char *from, const char *to, runner_status *status,
+                           mjcf_error *error) {
   bike_bicycle b = read_shipped("benchmark");
   mjcf_options options = mjcf_default_options();
   options.visible = false;
@@ -167,11 +168,9 @@ static runner_status load_edited(const char *from, const char *to, mjcf_error *e
   fprintf(out, "%.*s%s%s", (int)(found - text), text, to, found + strlen(from));
   fclose(out);
   free(text);
-  runner_status status;
-  runner *r = runner_load("edited.xml", &status, error);
-  runner_free(r);
+  runner *r = runner_load("edited.xml", status, error);
   unlink("edited.xml");
-  return status;
+  return r;
 }
 
 static void test_foreign_models(void **state) {
@@ -183,11 +182,17 @@ static void test_foreign_models(void **state) {
                {"axis=\"0 1 0\"/>\n      </body>", "axis=\"0 -1 0\"/>\n      </body>", "rear_spin"},
                {"joint name=\"yaw\" type=\"hinge\"", "joint name=\"yaw\" type=\"slide\"", "yaw"},
                {"tuple name=\"rolling_discs\"", "tuple name=\"wheels\"", "rolling_discs"},
-               {"objname=\"front_wheel\"", "objname=\"front_frame\"", "front_wheel"}};
+               {"objname=\"front_wheel\"", "objname=\"front_frame\"", "front_wheel"},
+               {"objname=\"front_wheel\"", "objname=\"world\"", "cannot move (body 'world')"},
+               {"<tuple", "<text name=\"rolling_discs\" data=\"x\"/><tuple",
+                "rolling_driven (text 'rolling_discs')"}};
   mjcf_error error = {""};
-  assert_int_equal(load_edited("<mujoco", "<mujoco", &error), RUNNER_OK);
+  runner_status status;
+  runner_free(load_edited("<mujoco", "<mujoco", &status, &error));
+  assert_int_equal(status, RUNNER_OK);
   for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
-    assert_int_equal(load_edited(edits[i].from, edits[i].to, &error), RUNNER_MODEL);
+    assert_null(load_edited(edits[i].from, edits[i].to, &status, &error));
+    assert_int_equal(status, RUNNER_MODEL);
     if (!strstr(error.text, edits[i].word)) fail_msg("%s", error.text);
   }
 }
@@ -209,6 +214,51 @@ static void test_singular_bicycle(void **state) {
     assert_int_equal(status, RUNNER_MODEL);
     assert_non_null(strstr(error.text, "singular"));
   }
+}
+
+static runner_instant evaluate(runner *r) {
+  const bike_state state = {.lean = 0.1, .steer = 0.05, .speed = 5};
+  runner_instant out;
+  mjcf_error error = {""};
+  if (runner_evaluate(&out, r, &state, NULL, &error) != RUNNER_OK) fail_msg("%s", error.text);
+  return out;
+}
+
+// Whatever stands in the marker, and how often, the ground's force on a wheel is all of it.
+static void test_a_wheel_marked_often(void **state) {
+  (void)state;
+#define REAR "<element objtype=\"body\" objname=\"rear_wheel\" prm=\"0.3\"/>"
+  static const char begin[] = "<tuple name=\"rolling_discs\">";
+  mjcf_error error = {""};
+  runner_status status;
+  runner *once = load_edited(begin, begin, &status, &error);
+  runner *often = load_edited(
+      begin, "<tuple name=\"rolling_discs\">" REAR REAR REAR REAR REAR REAR REAR REAR REAR, &status,
+      &error);
+#undef REAR
+  if (!once || !often) fail_msg("%s", error.text);
+  runner_instant a = evaluate(once), b = evaluate(often);
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++) assert_near(b.force[i][k], a.force[i][k], 1e-9);
+  assert_true(a.force[0][2] > 100 && a.force[1][2] > 100);
+  runner_free(once);
+  runner_free(often);
+}
+
+// A disc that is spoilt after the model was checked.
+static void test_a_disc_left_free_is_named(void **state) {
+  (void)state;
+  mjcf_error error = {""};
+  runner_status status;
+  runner_instant at;
+  runner *r = load_edited("<mujoco", "<mujoco", &status, &error);
+  assert_non_null(r);
+  runner_model(r)->tuple_objprm[1] = -1;
+  assert_int_equal(runner_evaluate(&at, r, &(bike_state){.speed = 5}, NULL, &error),
+                   RUNNER_INVALID_WARNING);
+  if (!strstr(error.text, "'front_wheel' at 0 s: rolling discs: a radius"))
+    fail_msg("%s", error.text);
+  runner_free(r);
 }
 
 static void test_keyframe(void **state) {
@@ -247,13 +297,14 @@ static void test_keyframe(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_accidents),      cmocka_unit_test(test_mujoco_error),
-      cmocka_unit_test(test_recovery),       cmocka_unit_test(test_bad_definitions),
-      cmocka_unit_test(test_foreign_models), cmocka_unit_test(test_singular_bicycle),
-      cmocka_unit_test(test_keyframe)};
-  own_folder folder = enter_own_folder();
-  int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  leave_own_folder(&folder);
-  return failed;
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_accidents),
+                                     cmocka_unit_test(test_mujoco_error),
+                                     cmocka_unit_test(test_recovery),
+                                     cmocka_unit_test(test_bad_definitions),
+                                     cmocka_unit_test(test_foreign_models),
+                                     cmocka_unit_test(test_singular_bicycle),
+                                     cmocka_unit_test(test_a_wheel_marked_often),
+                                     cmocka_unit_test(test_a_disc_left_free_is_named),
+                                     cmocka_unit_test(test_keyframe)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
 }
