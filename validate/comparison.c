@@ -97,7 +97,7 @@ static term_exit ride(trace *out, comparison *c, const engine *e, void *instance
       .start = *start,
       .duration = c->scenario->duration,
       .sample = c->scenario->sample,
-      .lean_limit = bike_default_ride_def().lean_limit, // the same for all engines
+      .lean_limit = scenario_lean_limit(),
       .progress = ride_progressed,
       .user = c,
   };

@@ -48,7 +48,7 @@ typedef bool engine_progress(double share, void *user);
 typedef struct engine_ride {
   bike_state start;           //
   double duration, sample;    // s
-  double lean_limit;          // rad  the ride ends there
+  double lean_limit;          // rad  the ride ends there; the start is below it
   bike_input_function *input; //      NULL: hands off
   void *input_user;           //      its argument
   const double *breakpoints;  // s    rising times at which the input is not smooth

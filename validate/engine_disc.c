@@ -172,9 +172,6 @@ static term_exit ride_rows(trace *out, const disc *d, const engine_ride *asked, 
 
 static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
   const disc *d = instance;
-  if (!(fabs(asked->start.lean) < asked->lean_limit))
-    return problem_set(p, TERM_USAGE, "the disc leans by more than %g rad at the start",
-                       asked->lean_limit);
   double begun = engine_clock();
   out->missing = engine_disc_missing();
   term_exit code = ride_rows(out, d, asked, p);

@@ -21,11 +21,9 @@ typedef struct residual {
   size_t first; // row of the trace at which they begin
 } residual;
 
-// Rows are at k sample, which is not to the last digit what people write: a millionth of a row is
-// no difference.
 static residual part_of(const comparison *c, const residual *r, double from, double to) {
   residual part = *r;
-  double slack = 1e-6 * c->scenario->sample;
+  double slack = SCENARIO_ROW_SLACK * c->scenario->sample;
   for (; part.count > 0 && *part.time < from - slack; part.count--)
     part.time++, part.error++, part.first++;
   while (to > 0 && part.count > 0 && part.time[part.count - 1] > to + slack) part.count--;

@@ -11,6 +11,7 @@
 
 #include <bicycle/error.h>
 #include <bicycle/file.h>
+#include <bicycle/ride.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -194,6 +195,18 @@ static int read_include(const bike_yaml *yaml, const bike_field *field, void *ta
   return code;
 }
 
+// Windows of gates lie within the ride: how long it is must be known before they are read, wherever
+// in the file it stands. Whether it is there at all is said when all keys are read.
+static int read_times(const bike_yaml *yaml, scenario *s) {
+  bike_field field;
+  int code = BIKE_OK;
+  if (bike_yaml_find(yaml->root, "duration", &field)) code = read_duration(yaml, &field, s);
+  if (!code && bike_yaml_find(yaml->root, "sample", &field)) code = read_sample(yaml, &field, s);
+  s->rules.duration = s->duration;
+  s->rules.sample = s->sample;
+  return code;
+}
+
 static const bike_key scenario_keys[] = {
     {"title", read_title, 0, true},
     {"bicycle", read_bicycle, 0, true},
@@ -220,6 +233,21 @@ static bool judges(const gate_rules *rules) {
   for (size_t i = 0; i < rules->count; i++)
     if (!rules->items[i].information) return true;
   return false;
+}
+
+double scenario_lean_limit(void) {
+  return bike_default_ride_def().lean_limit;
+}
+
+// A ride that ends where it starts says nothing, and what lies flat has no coordinates.
+static int check_start(const bike_yaml *yaml, const scenario *s) {
+  bike_field start, lean;
+  if (fabs(s->start.lean) < scenario_lean_limit()) return BIKE_OK;
+  bike_yaml_find(yaml->root, "start", &start);
+  bike_yaml_find(start.value, "lean", &lean);
+  return bike_yaml_fail(yaml, &lean, BIKE_ERROR_SYNTAX,
+                        "%g rad is too much: rides end at a lean of %g rad", s->start.lean,
+                        scenario_lean_limit());
 }
 
 // What no single key can be blamed for.
@@ -262,7 +290,9 @@ static int parse(scenario *s, bike_file_error *error) {
   int code = bike_text_read(&text, s->path, LARGEST_FILE, error);
   if (code) return code;
   code = bike_yaml_open(&yaml, &text, s->path, error);
+  if (!code) code = read_times(&yaml, s);
   if (!code) code = bike_yaml_read(&yaml, NULL, yaml.root, keys, s);
+  if (!code) code = check_start(&yaml, s);
   if (!code) code = check_whole(&yaml, s);
   if (!code) code = displace_rider(&yaml, s);
   if (!code) code = scenario_load_input(&yaml, &s->input, s->duration);

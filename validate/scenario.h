@@ -39,6 +39,7 @@ typedef struct gate_rule {
 typedef struct gate_rules {
   gate_rule *items;
   size_t count, room;
+  double duration, sample; // s  of the ride in which windows must lie; 0: not known
 } gate_rules;
 
 // Random states of L0, uniform within these ranges, the same for the same seed on every machine.
@@ -121,6 +122,13 @@ typedef struct scenario {
 // without memory; `out` need not be cleared then.
 term_exit scenario_read(scenario *out, const char *path, problem *p);
 void scenario_clear(scenario *s);
+
+// The lean at which rides end, rad, the same for all engines; a scenario's start is below it.
+double scenario_lean_limit(void);
+
+// Rows are at k sample, which is not to the last digit what people write in a window: this share of
+// a sample is no difference.
+#define SCENARIO_ROW_SLACK 1e-6
 
 // Whether anything acts on the bicycle, and what at a time (a bike_input_function).
 bool scenario_has_input(const scenario_input *input);

@@ -6,6 +6,7 @@
 #include "files/text.h"
 
 #include <bicycle/error.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,8 +70,26 @@ static int check_only_for(const bike_yaml *yaml, const bike_field *where, const 
   return bike_yaml_fail(yaml, &given, BIKE_ERROR_SYNTAX, "only the metric '%s' has it", metric);
 }
 
+// What begins after the ride or between two rows would cost the whole ride and then fail. A ride
+// that ends before its time is another matter.
+static int check_rows(const bike_yaml *yaml, const bike_field *from, const gate_rule *rule,
+                      const gate_rules *rules) {
+  double duration = rules->duration, sample = rules->sample, slack = SCENARIO_ROW_SLACK * sample;
+  if (!(duration > 0 && sample > 0)) return BIKE_OK; // their absence is said elsewhere
+  if (rule->from > duration + slack)
+    return bike_yaml_fail(yaml, from, BIKE_ERROR_SYNTAX, "%g s is after the end of the ride, %g s",
+                          rule->from, duration);
+  double end = rule->to > 0 ? fmin(rule->to, duration) : duration;
+  double first = ceil((rule->from - slack) / sample) * sample;
+  if (first <= end + slack) return BIKE_OK;
+  return bike_yaml_fail(yaml, from, BIKE_ERROR_SYNTAX,
+                        "no row lies from %g to %g s: there is one every %g s", rule->from, end,
+                        sample);
+}
+
 // Only the metrics of L2 that sum up a ride can do so for a part of it.
-static int check_window(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule) {
+static int check_window(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule,
+                        const gate_rules *rules) {
   bike_field from, to;
   bool has_from = bike_yaml_find(where->value, "from", &from);
   bool has_to = bike_yaml_find(where->value, "to", &to);
@@ -82,17 +101,18 @@ static int check_window(const bike_yaml *yaml, const bike_field *where, const ga
   if (has_from && has_to && rule->from > rule->to)
     return bike_yaml_fail(yaml, &from, BIKE_ERROR_SYNTAX, "%g s is later than 'to', %g s",
                           rule->from, rule->to);
-  return BIKE_OK;
+  return has_from ? check_rows(yaml, &from, rule, rules) : BIKE_OK; // the first row is at 0
 }
 
-static int check_options(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule) {
+static int check_options(const bike_yaml *yaml, const bike_field *where, const gate_rule *rule,
+                         const gate_rules *rules) {
   bike_field limit;
   if (!rule->information && !bike_yaml_find(where->value, "limit", &limit))
     return bike_yaml_fail(yaml, where, BIKE_ERROR_SYNTAX,
                           "key 'limit' is missing, or 'info: true' where nothing is judged");
   int code = check_only_for(yaml, where, rule, "time_tolerance", "tube");
   if (!code) code = check_only_for(yaml, where, rule, "nominal", "nrmse");
-  return code ? code : check_window(yaml, where, rule);
+  return code ? code : check_window(yaml, where, rule, rules);
 }
 
 static int add_rule(const bike_yaml *yaml, const bike_field *where, gate_rules *rules,
@@ -130,7 +150,7 @@ static int read_rule(const bike_yaml *yaml, const bike_field *where, gate_rules 
   while (rule.signal_count < GATE_MAX_SIGNALS && *rule.signals[rule.signal_count])
     rule.signal_count++;
   code = check_names(yaml, where, &rule);
-  if (!code) code = check_options(yaml, where, &rule);
+  if (!code) code = check_options(yaml, where, &rule, rules);
   return code ? code : add_rule(yaml, where, rules, &rule);
 }
 

@@ -306,5 +306,8 @@ int main(void) {
                                      cmocka_unit_test(test_a_wheel_marked_often),
                                      cmocka_unit_test(test_a_disc_left_free_is_named),
                                      cmocka_unit_test(test_keyframe)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  own_folder folder = enter_own_folder();
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  leave_own_folder(&folder);
+  return failed;
 }

@@ -112,7 +112,7 @@ static void test_impossible_start_is_usage(void **state) {
   problem p = {""};
   support_run *f =
       support_open(NULL, "title: lying\nbicycle: benchmark\n"
-                         "start: {speed: 4, steer: 1.6, lean: 1.5}\nduration: 1\nsample: 0.1\n"
+                         "start: {speed: 4, steer: 1.6, lean: 1.39}\nduration: 1\nsample: 0.1\n"
                          "reference: {engine: analytic}\ncandidate: {engine: mujoco}\n"
                          "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1,"
                          " reason: test}\n");

@@ -173,11 +173,27 @@ static void test_refusals(void **state) {
   free(text);
 }
 
+// Reading refuses what MuJoCo would call singular.
+static void test_flat_start(void **state) {
+  (void)state;
+  problem p = {""};
+  scenario s;
+  char *text = support_replace(disc_scenario, "lean: 0.3", "lean: 1.5707963");
+  char *folder = support_folder(), *path = support_write(folder, "flat.yml", text);
+  assert_int_equal(scenario_read(&s, path, &p), TERM_USAGE);
+  assert_non_null(strstr(
+      p.text, "flat.yml:3: lean: 1.5708 rad is too much: rides end at a lean of 1.39626 rad"));
+  free(text);
+  free(path);
+  support_remove(folder);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_discs_agree),   cmocka_unit_test(test_wrong_disc_is_L0),
       cmocka_unit_test(test_steady_circle), cmocka_unit_test(test_model_is_the_example),
       cmocka_unit_test(test_fall),          cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_flat_start),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

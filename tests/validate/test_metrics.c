@@ -79,7 +79,7 @@ static gate_list judge(double lean, double steer, double limit) {
                         .limit = limit,
                         .signals = {"lean"},
                         .signal_count = 1};
-  gate_rules rules = {rule, 2, 2};
+  gate_rules rules = {.items = rule, .count = 2, .room = 2};
   gate_list gates = {0};
   assert_true(gates_judge(&gates, &list, &rules, 4));
   measurement_clear(&list);
@@ -123,7 +123,7 @@ static void test_unmeasured_fails(void **state) {
                     .limit = 1,
                     .signals = {"rear_slip", "front_slip"},
                     .signal_count = 2};
-  gate_rules rules = {&rule, 1, 1};
+  gate_rules rules = {.items = &rule, .count = 1, .room = 1};
   gate_list gates = {0};
   assert_true(gates_judge(&gates, &nothing, &rules, 5));
   assert_int_equal(gates.count, 2);

@@ -42,6 +42,11 @@ static const broken cases[] = {
     {"start: {speed: 5}\n", "start: {speed: 5, sped: 4}\n", ":3: sped: unknown key"},
     {"start: {speed: 5}\n", "start: 5\n", ":3: start: must hold"},
     {"start: {speed: 5}\n", "start: {speed: inf}\n", ":3: speed: 'inf' is not finite"},
+    {"start: {speed: 5}\n", "start: {speed: 5,\n  lean: 1.5707963}\n",
+     ":4: lean: 1.5708 rad is too much: rides end at a lean of 1.39626 rad"},
+    {"start: {speed: 5}\n", "start: {speed: 5, lean: -1.5}\n", ":3: lean: -1.5 rad is too much"},
+    {"start: {speed: 5}\n", "start: {speed: 5, lean: 1.3962634015954636}\n",
+     ":3: lean: 1.39626 rad is too much"},
     {"{engine: mujoco}", "{engine: ode}", ":7: engine: 'ode' is not an engine"},
     {"{engine: mujoco}", "{timestep: 1}", ":7: candidate: key 'engine' is missing"},
     {"{engine: mujoco}", "mujoco", ":7: candidate: must hold"},
@@ -67,6 +72,18 @@ static const broken cases[] = {
     {"limit: 1,", "limit: 1, to: nan,", ":9: to: 'nan' is not finite"},
     {"limit: 1,", "limit: 1,\n     from: 0.6, to: 0.5,",
      ":10: from: 0.6 s is later than 'to', 0.5"},
+    {"limit: 1,", "limit: 1,\n     from: 2,", ":10: from: 2 s is after the end of the ride, 1 s"},
+    {"limit: 1,", "info: true, from: 1.001,", ":9: from: 1.001 s is after the end of the ride, 1"},
+    {"limit: 1,", "limit: 1, from: 0.32, to: 0.38,",
+     ":9: from: no row lies from 0.32 to 0.38 s: there is one every 0.1 s"},
+    {"sample: 0.1\n",
+     "sample: 0.3\ngates:\n  - {layer: L2, metric: max, limit: 1, from: 0.91, to: 7, "
+     "reason: r}\n",
+     ":7: from: no row lies from 0.91 to 1 s: there is one every 0.3"},
+    {"title: t\n", "gates:\n  - {layer: L2, metric: max, limit: 1, from: 2, reason: r}\n",
+     ":2: from: 2 s is after"}, // of a ride of which nothing was read yet
+    {gates, "include: [late.yml]\n", ":8: include: "},
+    {gates, "include: [late.yml]\n", "late.yml:3: from: 5 s is after the end of the ride, 1 s"},
     {"L2, metric: max, signals: [lean]", "L3, metric: max, from: 0.1",
      ":9: from: the metric 'max' of layer L3 has no window"},
     {"metric: max, signals: [lean]", "metric: difference, to: 0.1", ":9: to: the metric 'diff"},
@@ -114,6 +131,8 @@ static void expect_usage(const char *path, const char *message) {
 static void test_broken_files(void **state) {
   (void)state;
   char *folder = support_folder();
+  free(support_write(folder, "late.yml",
+                     "gates:\n  - {layer: L2, metric: max, limit: 1, reason: r,\n     from: 5}\n"));
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char *text = text_of(&cases[i]), *path = support_write(folder, "test.yml", text);
     expect_usage(path, cases[i].message);
@@ -152,6 +171,26 @@ static void test_right_file(void **state) {
   assert_true(s.instants.count > 0);
   scenario_clear(&s);
   free(text);
+  support_remove(folder);
+}
+
+// Windows with a row of the ride, which is at 0, 0.1 ... 1 s, and no more than that.
+static void test_right_windows(void **state) {
+  (void)state;
+  static const char *const windows[] = {
+      "from: 1",  "from: 1.00000001",  "from: 0.3, to: 0.3", "from: 0.95", "from: 0.61, to: 0.7",
+      "to: 0.01", "from: 0, to: 0.01", "from: 0.5, to: 7"};
+  char *folder = support_folder();
+  for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) {
+    char limit[64];
+    snprintf(limit, sizeof limit, "limit: 1, %s,", windows[i]);
+    char *text = text_of(&(broken){"limit: 1,", limit, NULL});
+    scenario s;
+    support_read_scenario(&s, folder, text);
+    assert_int_equal(s.rules.count, 1);
+    scenario_clear(&s);
+    free(text);
+  }
   support_remove(folder);
 }
 
@@ -205,8 +244,8 @@ static void test_shipped(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_broken_files), cmocka_unit_test(test_not_even_yaml),
-      cmocka_unit_test(test_right_file),   cmocka_unit_test(test_files_beside),
-      cmocka_unit_test(test_shipped),
+      cmocka_unit_test(test_right_file),   cmocka_unit_test(test_right_windows),
+      cmocka_unit_test(test_files_beside), cmocka_unit_test(test_shipped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
