@@ -5,15 +5,16 @@
 #include "report_series.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
 enum {
-  // Rows of all scenarios together. A row costs 45 (smooth rides) to 70 bytes of the page, so
-  // traces
-  // take up to 1.4 MB of the 3 MB that a page may have; twenty rides of 10 s at 10 ms fit whole.
+  // Rows of all scenarios together. A row costs 45 (smooth rides) to 70 bytes of the page, so that
+  // traces take up to 1.4 MB of the 3 MB that a page may have; twenty rides of 10 s at 10 ms fit
+  // whole.
   ROW_BUDGET = 20000,
   LINEAR_BITS = 24,
   LINEAR_NONE = (1 << LINEAR_BITS) - 1,
@@ -25,32 +26,17 @@ enum {
 // Sizes from 1e-24, far below the rounding of anything shown, to 1e12.
 static const double log_low = -24, log_high = 12;
 
+// Slip and height of the wheels belong to a side, and to an engine that measures them.
+static bool is_contact(const trace_signal *signal) {
+  return signal->offset >= offsetof(trace_row, slip);
+}
+
 // Signals of the reference, as far as it has them; the candidate follows from their residuals. What
 // can be computed from others (normal forces, friction) is left to the page.
-static const char *const signals[] = {"x",
-                                      "y",
-                                      "yaw",
-                                      "lean",
-                                      "pitch",
-                                      "steer",
-                                      "lean_rate",
-                                      "steer_rate",
-                                      "speed",
-                                      "rear_angle",
-                                      "front_angle",
-                                      "energy",
-                                      "rear_force_forward",
-                                      "rear_force_left",
-                                      "rear_force_up",
-                                      "front_force_forward",
-                                      "front_force_left",
-                                      "front_force_up"};
-static const char *const contacts[] = {"rear_slip", "front_slip", "rear_height", "front_height"};
-
-enum {
-  SIGNAL_COUNT = sizeof signals / sizeof *signals,
-  CONTACT_COUNT = sizeof contacts / sizeof *contacts
-};
+static bool is_packed(const trace_signal *signal) {
+  return !is_contact(signal) && !strstr(signal->name, "_normal") &&
+         !strstr(signal->name, "_friction") && strcmp(signal->name, "work") != 0;
+}
 
 // Bytes in the making, and the list of columns that goes with them.
 typedef struct pack {
@@ -161,9 +147,10 @@ static void add_log(pack *p, const report_series *s, const char *name, const cha
 }
 
 static void add_signals(pack *p, const comparison *c) {
-  for (int i = 0; i < SIGNAL_COUNT; i++) {
-    const trace_signal *signal = trace_find_signal(signals[i]);
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
+    const trace_signal *signal = &trace_signals[i];
     size_t ends[2];
+    if (!is_packed(signal)) continue;
     report_series value = report_series_either(c, signal, ends);
     report_series residual = report_series_residual(c, signal);
     p->lost |= !value.value || !residual.value;
@@ -180,9 +167,9 @@ static void add_side(pack *p, const comparison *c, int side) {
   p->lost |= !balance.value;
   add_log(p, &balance, "balance", "", label);
   report_series_clear(&balance);
-  for (int i = 0; c->side[side].trace.has_contacts && i < CONTACT_COUNT; i++) {
-    const trace_signal *signal = trace_find_signal(contacts[i]);
-    if (!trace_has(&c->side[side].trace, signal)) continue;
+  for (int i = 0; c->side[side].trace.has_contacts && i < TRACE_SIGNAL_COUNT; i++) {
+    const trace_signal *signal = &trace_signals[i];
+    if (!is_contact(signal) || !trace_has(&c->side[side].trace, signal)) continue;
     report_series value = report_series_of(c, side, signal);
     p->lost |= !value.value;
     add_log(p, &value, signal->name, signal->unit, label);

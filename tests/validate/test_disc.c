@@ -44,9 +44,7 @@ static void test_wrong_disc_is_L0(void **state) {
   (void)state;
   engine wrong = engine_mujoco_disc;
   wrong.create = create_wrong;
-  support_run *f = support_open(&wrong, disc_scenario);
-  support_expect_failure(support_play(f), "L0", "");
-  support_close(f);
+  support_expect_fault(&wrong, disc_scenario, "L0", "");
 }
 
 //---------------------------------- closed forms --------------------------------------------------

@@ -70,9 +70,7 @@ static void test_wrong_acceleration_is_L0(void **state) {
   (void)state;
   engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_wrong;
-  support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "steer acceleration");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "steer acceleration");
 }
 
 // An engine that moves one part in a hundred million too heavily where lean and speed are coupled.
@@ -99,17 +97,11 @@ static void test_wrong_mass_matrix_is_L0(void **state) {
   (void)state;
   engine wrong = engine_mujoco;
   wrong.mass_matrix = mass_wrong;
-  support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "mass matrix");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "mass matrix");
   wrong.mass_matrix = mass_nan;
-  f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "mass matrix");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "mass matrix");
   wrong.mass_matrix = mass_never;
-  f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "no such masses");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "no such masses");
 }
 
 // Of engines that agree it differs by rounding, whatever the root and whatever keeps the wheels on
@@ -143,9 +135,7 @@ static void test_refused_state_is_L0(void **state) {
   (void)state;
   engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_never;
-  support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "no such place");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "no such place");
 }
 
 static term_exit evaluate_nan(engine_instant *out, void *instance, const bike_state *state,
@@ -159,9 +149,7 @@ static void test_nan_at_one_instant_fails(void **state) {
   (void)state;
   engine wrong = engine_mujoco;
   wrong.evaluate = evaluate_nan;
-  support_run *f = support_open(&wrong, support_scenario_text);
-  support_expect_failure(support_play(f), "L0", "front force");
-  support_close(f);
+  support_expect_fault(&wrong, support_scenario_text, "L0", "front force");
 }
 
 static term_exit ride_from_elsewhere(trace *out, void *instance, const engine_ride *asked,

@@ -188,6 +188,13 @@ void support_expect_failure(const comparison *c, const char *layer_name, const c
   if (!strstr(c->cause, named)) fail_msg("'%s' does not name %s", c->cause, named);
 }
 
+void support_expect_fault(const engine *candidate, const char *text, const char *layer_name,
+                          const char *named) {
+  support_run *run = support_open(candidate, text);
+  support_expect_failure(support_play(run), layer_name, named);
+  support_close(run);
+}
+
 static void steal(const mjModel *m, mjData *d) {
   (void)m;
   (void)d;

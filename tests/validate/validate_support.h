@@ -61,6 +61,10 @@ comparison *support_play(support_run *run);
 // The comparison failed, that layer first, and the cause holds that text.
 void support_expect_failure(const comparison *c, const char *layer_name, const char *named);
 
+// The same of a scenario text with another candidate, from opening to closing.
+void support_expect_fault(const engine *candidate, const char *text, const char *layer_name,
+                          const char *named);
+
 // A ride of engine_mujoco whose mjcb_control is taken away half way, and put back at the end.
 term_exit support_robbed_ride(trace *out, void *instance, const engine_ride *asked, problem *p);
 
