@@ -31,6 +31,15 @@ static json_t *load(const char *path, problem *p) {
   return document;
 }
 
+static bool is_scenario(const json_t *entry) {
+  size_t i;
+  const json_t *judged, *gates = json_object_get(entry, "gates");
+  json_array_foreach(gates, i, judged) {
+    if (!json_is_object(judged)) return false;
+  }
+  return json_is_array(gates);
+}
+
 static term_exit check_schema(const json_t *document, const char *path, problem *p) {
   long long version = json_integer_value(json_object_get(document, "version"));
   if (strcmp(report_text(document, "schema"), REPORT_SCHEMA) != 0)
@@ -38,8 +47,14 @@ static term_exit check_schema(const json_t *document, const char *path, problem 
   if (version != REPORT_VERSION)
     return problem_set(p, TERM_BASELINE, "%s: version: %lld, but this program writes %d", path,
                        version, REPORT_VERSION);
-  if (!json_is_array(json_object_get(document, "scenarios")))
+  size_t i;
+  const json_t *entry, *scenarios = json_object_get(document, "scenarios");
+  if (!json_is_array(scenarios))
     return problem_set(p, TERM_BASELINE, "%s: scenarios: missing", path);
+  json_array_foreach(scenarios, i, entry) {
+    if (!is_scenario(entry))
+      return problem_set(p, TERM_BASELINE, "%s: scenarios: number %zu is none", path, i + 1);
+  }
   return TERM_DONE;
 }
 
@@ -59,8 +74,9 @@ term_exit baseline_read(json_t **out, const char *given, problem *p) {
 static json_t *entry_named(const json_t *document, const char *name) {
   size_t i;
   json_t *entry;
-  json_array_foreach(json_object_get(document, "scenarios"), i,
-                     entry) if (strcmp(report_text(entry, "name"), name) == 0) return entry;
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    if (strcmp(report_text(entry, "name"), name) == 0) return entry;
+  }
   return NULL;
 }
 
@@ -188,10 +204,10 @@ bool baseline_compare(json_t *document, const json_t *baseline) {
   size_t i, total[CHANGES] = {0}, gone = 0;
   json_t *entry;
   const json_t *origin = json_object_get(baseline, "provenance");
-  json_array_foreach(json_object_get(document, "scenarios"), i,
-                     entry) if (!compare_entry(entry,
-                                               entry_named(baseline, report_text(entry, "name")),
-                                               total, &gone)) return false;
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    const json_t *before = entry_named(baseline, report_text(entry, "name"));
+    if (!compare_entry(entry, before, total, &gone)) return false;
+  }
   json_t *block =
       json_pack("{s:s, s:s, s:s}", "created", report_text(origin, "created"), "project",
                 report_text(origin, "project"), "compiler", report_text(origin, "compiler"));

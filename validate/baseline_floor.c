@@ -14,8 +14,9 @@ static double most_steps(const json_t *entry) {
   size_t i;
   const json_t *player;
   double most = 1;
-  json_array_foreach(json_object_get(entry, "engines"), i, player) most =
-      fmax(most, report_real(player, "steps"));
+  json_array_foreach(json_object_get(entry, "engines"), i, player) {
+    most = fmax(most, report_real(player, "steps"));
+  }
   return most;
 }
 
@@ -42,8 +43,9 @@ static double walk_floor(const json_t *entry, const report_gate *g) {
 static const json_t *study_of(const json_t *entry, const char *signal) {
   size_t i;
   const json_t *study;
-  json_array_foreach(json_object_get(entry, "convergence"), i,
-                     study) if (strcmp(report_text(study, "signal"), signal) == 0) return study;
+  json_array_foreach(json_object_get(entry, "convergence"), i, study) {
+    if (strcmp(report_text(study, "signal"), signal) == 0) return study;
+  }
   return NULL;
 }
 

@@ -33,9 +33,10 @@ static void print_gone(const json_t *document, FILE *stream) {
   size_t i, k;
   const json_t *entry, *name;
   json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
-    json_array_foreach(json_object_get(json_object_get(entry, "baseline"), "gone"), k, name)
-        fprintf(stream, "no longer measured: %s %s\n", report_text(entry, "name"),
-                json_string_value(name));
+    json_array_foreach(json_object_get(json_object_get(entry, "baseline"), "gone"), k, name) {
+      fprintf(stream, "no longer measured: %s %s\n", report_text(entry, "name"),
+              json_string_value(name));
+    }
   }
 }
 

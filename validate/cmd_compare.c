@@ -45,12 +45,12 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
-static term_exit compare(json_t *document[2], bool json) {
+static term_exit compare(json_t *document[2], const arguments *args) {
   problem p = {""};
   term_exit code = baseline_match(document[1], document[0], &p);
-  if (code != TERM_DONE) return term_fail(code, "%s", p.text);
+  if (code != TERM_DONE) return term_fail(code, "%s: %s", args->file[0], p.text);
   if (!baseline_compare(document[1], document[0])) return term_fail(TERM_INVALID, "out of memory");
-  if (!json)
+  if (!args->json)
     baseline_print(document[1], stdout);
   else if (!term_json_write(json_incref(document[1]), stdout))
     return term_fail(TERM_INVALID, "out of memory");
@@ -66,7 +66,7 @@ int cmd_compare(int argc, char **argv) {
   term_parse(&argp, example, argc, argv, &args);
   for (int i = 0; i < 2 && code == TERM_DONE; i++)
     code = baseline_read(&document[i], args.file[i], &p);
-  code = code == TERM_DONE ? compare(document, args.json) : term_fail(code, "%s", p.text);
+  code = code == TERM_DONE ? compare(document, &args) : term_fail(code, "%s", p.text);
   for (int i = 0; i < 2; i++) json_decref(document[i]);
   return code;
 }

@@ -138,6 +138,9 @@ const engine *engine_find(const char *name);
 // The engine with its default options.
 engine_choice engine_default_choice(const engine *e);
 
+// The order with which a ride's error falls with its step, 0 where it does not: see `order`.
+double engine_order(const engine_choice *choice);
+
 // Index of an option, or -1.
 int engine_option_index(const engine *e, const char *name);
 

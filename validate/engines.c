@@ -25,6 +25,10 @@ engine_choice engine_default_choice(const engine *e) {
   return choice;
 }
 
+double engine_order(const engine_choice *choice) {
+  return choice->engine->order ? choice->engine->order(choice) : 0;
+}
+
 int engine_option_index(const engine *e, const char *name) {
   for (int i = 0; name && i < e->option_count; i++)
     if (strcmp(e->options[i].name, name) == 0) return i;

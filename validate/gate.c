@@ -13,6 +13,11 @@ static bool names_signal(const gate_rule *rule, const char *signal) {
   return rule->signal_count == 0;
 }
 
+bool gate_covers(double from, double to, double time, double sample) {
+  double slack = 1e-6 * sample;
+  return time >= from - slack && (to == 0 || time <= to + slack);
+}
+
 bool gate_rule_names(const gate_rule *rule, const measurement *m) {
   return strcmp(rule->layer->name, m->layer) == 0 && strcmp(rule->metric, m->metric) == 0 &&
          names_signal(rule, m->signal);
@@ -36,6 +41,13 @@ const gate_rule *gate_rule_for(const measurement *m, const gate_rules *rules) {
   for (size_t i = rules->count; i-- > 0;)
     if (fits(&rules->items[i], m)) return &rules->items[i];
   return own_rule(m);
+}
+
+bool gate_limits_max(const gate_rule *rule, const gate_rules *rules, const char *signal) {
+  measurement m = measurement_of(layer_traces.name, signal, "max", "");
+  m.from = rule->from;
+  m.to = rule->to;
+  return !rule->information && gate_rule_for(&m, rules) == rule;
 }
 
 static bool add(gate_list *list, const measurement *m, const gate_rule *rule) {
@@ -96,26 +108,4 @@ double gate_use(const gate *g) {
   if (g->what.value == 0) return 0;
   if (isnan(g->what.value)) return INFINITY;
   return g->what.value / g->rule->limit;
-}
-
-static int by_margin(const void *a, const void *b) {
-  const gate *x = *(const gate *const *)a, *y = *(const gate *const *)b;
-  if (x->pass != y->pass) return x->pass ? 1 : -1;
-  double use_x = gate_use(x), use_y = gate_use(y);
-  if (use_x != use_y) return use_x < use_y ? 1 : -1;
-  return x < y ? -1 : x > y; // as measured
-}
-
-const gate **gates_by_margin(const gate_list *list) {
-  const gate **sorted = calloc(list->count + 1, sizeof *sorted);
-  if (!sorted) return NULL;
-  for (size_t i = 0; i < list->count; i++) sorted[i] = &list->items[i];
-  qsort(sorted, list->count, sizeof *sorted, by_margin);
-  return sorted;
-}
-
-size_t gates_failed(const gate_list *list) {
-  size_t failed = 0;
-  for (size_t i = 0; i < list->count; i++) failed += !list->items[i].pass;
-  return failed;
 }

@@ -23,6 +23,11 @@ typedef struct gate_list {
 bool gates_judge(gate_list *out, const measurement_list *measurements, const gate_rules *rules,
                  int measured_layers);
 
+// Whether a row at that time belongs to the part of a ride from `from` to `to`, s, both included;
+// to 0: the end. Rows are at k sample, which is not to the last digit what people write: a
+// millionth of a sample is no difference.
+bool gate_covers(double from, double to, double time, double sample);
+
 // Whether a rule is about that layer, metric and signal, in whatever part of the ride.
 bool gate_rule_names(const gate_rule *rule, const measurement *m);
 
@@ -30,15 +35,14 @@ bool gate_rule_names(const gate_rule *rule, const measurement *m);
 // of the scenario, else its layer's own; NULL: it is not judged.
 const gate_rule *gate_rule_for(const measurement *m, const gate_rules *rules);
 
+// Whether that rule, one of `rules`, judges a signal of L2 by the metric 'max', in whatever part of
+// the ride.
+bool gate_limits_max(const gate_rule *rule, const gate_rules *rules, const char *signal);
+
 void gates_clear(gate_list *list);
 
 // How much of its limit a gate uses up: value/limit; infinite for one that fails with NaN or
 // against a limit of zero.
 double gate_use(const gate *g);
-
-// Pointers to the gates, failures first, then by falling use; free it. NULL when out of memory.
-const gate **gates_by_margin(const gate_list *list);
-
-size_t gates_failed(const gate_list *list);
 
 #endif

@@ -36,7 +36,7 @@ static double time_within(const comparison *c, const trace *twin, const trace_si
   for (size_t k = 0; k < common_rows(c, twin); k++) {
     double now = reference->rows[k].sample.time;
     double off = trace_value(&twin->rows[k], signal) - trace_value(&reference->rows[k], signal);
-    bool judged = now >= rule->from && (rule->to == 0 || now <= rule->to);
+    bool judged = gate_covers(rule->from, rule->to, now, c->scenario->sample);
     if (judged && !(fabs(off) <= allowance)) return time;
     time = now;
   }
@@ -59,14 +59,10 @@ static bool find_time(study_horizon *h, const comparison *c, const trace *twin) 
   h->time = INFINITY;
   for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
     const trace_signal *signal = &trace_signals[i];
-    measurement m = measurement_of("L2", signal->name, "max", signal->unit);
     for (size_t k = 0; k < rules->count && trace_has(twin, signal); k++) {
-      const gate_rule *rule = &rules->items[k];
-      m.from = rule->from;
-      m.to = rule->to;
-      if (rule->information || gate_rule_for(&m, rules) != rule) continue;
+      if (!gate_limits_max(&rules->items[k], rules, signal->name)) continue;
       limited = true;
-      find_time_of(h, c, twin, signal, rule);
+      find_time_of(h, c, twin, signal, &rules->items[k]);
     }
   }
   return limited;

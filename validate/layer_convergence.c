@@ -190,24 +190,21 @@ static void add_all(comparison *c) {
   }
 }
 
-static term_exit prepare(comparison *c, problem *p) {
+static void prepare(comparison *c) {
   const scenario *s = c->scenario;
   study_convergence *study = &c->study.convergence;
-  double own = s->candidate.engine->order ? s->candidate.engine->order(&s->candidate) : 0;
   study->count = s->convergence.count;
-  study->order = isnan(s->convergence.order) ? own : s->convergence.order;
+  study->order = isnan(s->convergence.order) ? engine_order(&s->candidate) : s->convergence.order;
   study->terms = study->count - 1;
   study->complete = true;
-  if (own > 0) return TERM_DONE;
-  return problem_set(p, TERM_USAGE, "convergence: the engine '%s' chooses its steps itself",
-                     s->candidate.engine->name);
 }
 
 static term_exit measure(comparison *c, problem *p) {
   rides r = {0};
   if (c->scenario->convergence.count == 0) return TERM_DONE;
   term_exit code = comparison_ride(c, p);
-  if (code == TERM_DONE) code = prepare(c, p);
+  if (code != TERM_DONE) return code;
+  prepare(c);
   if (code == TERM_DONE && !take_reference(&r, c)) code = problem_memory(p);
   for (int i = 0; i < c->study.convergence.count && code == TERM_DONE; i++)
     code = ride_point(c, &r, i, p);

@@ -86,7 +86,7 @@ static void add_information(comparison *c, int side) {
 }
 
 static bool is_adaptive(const engine_choice *choice) {
-  return choice->engine->order && choice->engine->order(choice) == 0;
+  return choice->engine->order && engine_order(choice) == 0;
 }
 
 static term_exit measure(comparison *c, problem *p) {

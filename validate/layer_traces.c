@@ -23,10 +23,10 @@ typedef struct residual {
 
 static residual part_of(const comparison *c, const residual *r, double from, double to) {
   residual part = *r;
-  double slack = SCENARIO_ROW_SLACK * c->scenario->sample;
-  for (; part.count > 0 && *part.time < from - slack; part.count--)
+  double sample = c->scenario->sample;
+  for (; part.count > 0 && !gate_covers(from, 0, *part.time, sample); part.count--)
     part.time++, part.error++, part.first++;
-  while (to > 0 && part.count > 0 && part.time[part.count - 1] > to + slack) part.count--;
+  while (part.count > 0 && !gate_covers(0, to, part.time[part.count - 1], sample)) part.count--;
   return part;
 }
 

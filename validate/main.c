@@ -72,12 +72,12 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static void print(const report *r, const json_t *document, const arguments *args) {
+static void print(const json_t *document, const arguments *args) {
   if (args->json) {
     if (!term_json_write(json_deep_copy(document), stdout)) term_message("out of memory");
     return;
   }
-  report_print(r, document, args->all, stdout);
+  report_print(document, args->all, stdout);
   baseline_print(document, stdout);
   printf("Report: %s\n", args->output);
 }
@@ -96,7 +96,7 @@ static term_exit publish(const report *r, const json_t *baseline, const argument
   bool ready = document && (!baseline || fits != TERM_DONE || baseline_compare(document, baseline));
   term_exit code = ready ? report_write(r, document, args->output, &p) : problem_memory(&p);
   // A verdict without a report is not published: with exit status 2 nothing was.
-  if (code == TERM_DONE) print(r, document, args);
+  if (code == TERM_DONE) print(document, args);
   if (code != TERM_DONE)
     term_message("%s", p.text);
   else if (report_verdict(r) != VERDICT_INVALID && fits != TERM_DONE)

@@ -28,8 +28,8 @@ const comparison *report_first_failure(const report *r);
 json_t *report_document(const report *r);
 
 // Verdict, then a table of gates for each scenario, worst first: all of them, or those that fail
-// and the few that are closest to their limit. `document` adds what the baseline says of them.
-void report_print(const report *r, const json_t *document, bool all, FILE *stream);
+// and the few that are closest to their limit, with what the baseline says of them.
+void report_print(const json_t *document, bool all, FILE *stream);
 
 // Every row of a trace: the columns of `bicycle ride`, then work, forces, and where it has them
 // slip and height.

@@ -3,15 +3,9 @@
 
 #include "files/csv.h"
 
-#include <string.h>
-
-static bool is_contact(const trace_signal *signal) {
-  return strstr(signal->name, "_slip") || strstr(signal->name, "_height");
-}
-
 // What an engine does not know has no column.
 static bool has_column(const trace *t, const trace_signal *signal) {
-  return trace_has(t, signal) && (t->has_contacts || !is_contact(signal));
+  return trace_has(t, signal) && (t->has_contacts || !trace_is_contact(signal));
 }
 
 // The columns that all of some rides have, after the time.

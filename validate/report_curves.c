@@ -91,7 +91,7 @@ static void lower(report_series *limit, const comparison *c, const report_gate *
   const trace_row *rows = c->side[REFERENCE].trace.rows;
   for (size_t k = 0; k < limit->count; k++) {
     double time = rows[k].sample.time;
-    if (time >= g->from && (g->to == 0 || time <= g->to))
+    if (gate_covers(g->from, g->to, time, c->scenario->sample))
       limit->value[k] = fmin(limit->value[k], g->limit * exp(growth * time)); // fmin skips a NaN
   }
 }

@@ -41,23 +41,13 @@ static void print_closest(FILE *stream, const json_t *document) {
   report_markup(
       stream,
       "<p>Closest to its limit: <a href='#%s'>%s</a>, %s %s %s: %s of %s (margin %s).</p>\n",
-      report_text(entry, "name"), report_text(entry, "name"), g.layer, g.signal, g.metric,
+      report_text(entry, "name"), report_text(entry, "name"), g.layer, g.signal, g.metric_words,
       report_number(value, g.value), report_quantity(limit, g.limit, g.unit),
       report_margin(margin, report_gate_use(&g)));
 }
 
-static const json_t *first_failing(const json_t *document) {
-  size_t i;
-  const json_t *entry;
-  const char *worst = report_text(document, "verdict");
-  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
-    if (strcmp(report_text(entry, "verdict"), worst) == 0) return entry;
-  }
-  return NULL;
-}
-
 static void print_failure(FILE *stream, const json_t *document) {
-  const json_t *entry = first_failing(document);
+  const json_t *entry = report_first_failing(document);
   const layer *l = layer_find(report_text(document, "first_failure"));
   const char *name = entry ? report_text(entry, "name") : "";
   report_markup(stream, "<p class=cause>First failure: <a href='#%s'>%s</a>, %s %s: %s</p>\n", name,
@@ -143,8 +133,9 @@ void report_html_overview(FILE *stream, const json_t *document) {
     if (is_gated(document, layer_at(k)->name))
       report_markup(stream, "<th>%s %s", layer_at(k)->name, layer_at(k)->title);
   fputs("<th>Ride<th>Bicycle<th>Engines</tr></thead><tbody>\n", stream);
-  json_array_foreach(json_object_get(document, "scenarios"), i, entry)
-      print_row(stream, document, entry);
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    print_row(stream, document, entry);
+  }
   fputs("</tbody></table></div>\n<p class=dim>Under each layer its smallest margin: how many times "
         "the value fits into its limit.</p>\n</section>\n",
         stream);

@@ -93,7 +93,9 @@ bool report_junit(const report *r, const json_t *document, FILE *stream) {
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"bicycle validate\" "
           "tests=\"%zu\" failures=\"%zu\" errors=\"%zu\">\n",
           tests, failures, errors);
-  json_array_foreach(scenarios, i, entry) print_suite(stream, document, entry);
+  json_array_foreach(scenarios, i, entry) {
+    print_suite(stream, document, entry);
+  }
   fputs("</testsuites>\n", stream);
   return true;
 }

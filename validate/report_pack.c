@@ -5,7 +5,6 @@
 #include "report_series.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,15 +25,11 @@ enum {
 // Sizes from 1e-24, far below the rounding of anything shown, to 1e12.
 static const double log_low = -24, log_high = 12;
 
-// Slip and height of the wheels belong to a side, and to an engine that measures them.
-static bool is_contact(const trace_signal *signal) {
-  return signal->offset >= offsetof(trace_row, slip);
-}
-
 // Signals of the reference, as far as it has them; the candidate follows from their residuals. What
-// can be computed from others (normal forces, friction) is left to the page.
+// can be computed from others (normal forces, friction) is left to the page; slip and height belong
+// to a side.
 static bool is_packed(const trace_signal *signal) {
-  return !is_contact(signal) && !strstr(signal->name, "_normal") &&
+  return !trace_is_contact(signal) && !strstr(signal->name, "_normal") &&
          !strstr(signal->name, "_friction") && strcmp(signal->name, "work") != 0;
 }
 
@@ -169,7 +164,7 @@ static void add_side(pack *p, const comparison *c, int side) {
   report_series_clear(&balance);
   for (int i = 0; c->side[side].trace.has_contacts && i < TRACE_SIGNAL_COUNT; i++) {
     const trace_signal *signal = &trace_signals[i];
-    if (!is_contact(signal) || !trace_has(&c->side[side].trace, signal)) continue;
+    if (!trace_is_contact(signal) || !trace_has(&c->side[side].trace, signal)) continue;
     report_series value = report_series_of(c, side, signal);
     p->lost |= !value.value;
     add_log(p, &value, signal->name, signal->unit, label);

@@ -3,6 +3,7 @@
 #include "report.h"
 
 #include "layer.h"
+#include "report_markup.h"
 #include "report_read.h"
 #include "terminal/table.h"
 
@@ -11,115 +12,75 @@
 #include <string.h>
 
 // Gates shown of a scenario that agrees, beside those that fail: enough to see what limits it.
-enum { SHOWN_GATES = 5, CELL = 48 };
+enum { SHOWN_GATES = 5 };
 
-static size_t gate_total(const report *r) {
-  size_t total = 0;
-  for (size_t i = 0; i < r->count; i++) total += r->comparisons[i].gates.count;
-  return total;
+static void print_coloured(FILE *stream, const json_t *object, const char *word) {
+  term_style style = report_agrees(object) ? TERM_GOOD : TERM_BAD;
+  fprintf(stream, "%s%s%s", term_style_begin(stream, style), word, term_style_end(stream, style));
 }
 
-static size_t failed_total(const report *r) {
-  size_t total = 0;
-  for (size_t i = 0; i < r->count; i++) total += gates_failed(&r->comparisons[i].gates);
-  return total;
+static void print_cause(const json_t *object, FILE *stream) {
+  const layer *l = layer_find(report_text(object, "first_failure"));
+  fprintf(stream, "%s %s: %s\n", l ? l->name : "", l ? l->title : "", report_text(object, "cause"));
 }
 
-static const char *plural(size_t count) {
-  return count == 1 ? "" : "s";
+static void print_verdict(const json_t *document, FILE *stream) {
+  const char *v = report_text(document, "verdict");
+  char counts[160];
+  const json_t *failing = report_first_failing(document);
+  report_describe_counts(counts, sizeof counts, document);
+  print_coloured(stream, document,
+                 strcmp(v, "agree") == 0  ? "AGREE"
+                 : strcmp(v, "fail") == 0 ? "FAIL"
+                                          : "INVALID");
+  fprintf(stream, ": %s\n", counts);
+  if (!failing) return;
+  fprintf(stream, "First failure: %s, ", report_text(failing, "name"));
+  print_cause(failing, stream);
 }
 
-static void print_counts(const report *r, FILE *stream) {
-  size_t gates = gate_total(r), failed = failed_total(r);
-  fprintf(stream, "%zu scenario%s, ", r->count, plural(r->count));
-  if (report_verdict(r) == VERDICT_INVALID)
-    fprintf(stream, "not all of which could be played\n");
-  else if (failed)
-    fprintf(stream, "%zu of %zu gates fail\n", failed, gates);
-  else
-    fprintf(stream, "all %zu gates hold\n", gates);
+static void add_row(term_table *table, const report_gate *g) {
+  char value[REPORT_NUMBER], limit[REPORT_NUMBER], margin[REPORT_NUMBER], at[REPORT_NUMBER] = "";
+  if (isfinite(g->time)) snprintf(at, sizeof at, "%.4g s", g->time);
+  term_table_add(table, g->pass ? TERM_PLAIN : TERM_BAD,
+                 (const char *const[]){"", g->layer, g->signal, g->metric_words,
+                                       report_number(value, g->value),
+                                       report_quantity(limit, g->limit, g->unit),
+                                       report_margin(margin, report_gate_use(g)), at, g->change});
 }
 
-static void print_cause(const comparison *c, FILE *stream) {
-  fprintf(stream, "%s %s: %s\n", c->first_failure->name, c->first_failure->title, c->cause);
-}
-
-static void print_verdict(const report *r, FILE *stream) {
-  static const char *const words[] = {"AGREE", "FAIL", "INVALID"};
-  verdict v = report_verdict(r);
-  term_style style = v == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
-  const comparison *failure = report_first_failure(r);
-  fprintf(stream, "%s%s%s: ", term_style_begin(stream, style), words[v],
-          term_style_end(stream, style));
-  print_counts(r, stream);
-  if (!failure) return;
-  fprintf(stream, "First failure: %s, ", failure->scenario->name);
-  print_cause(failure, stream);
-}
-
-// "12x" within the limit, "0.5x": beyond it.
-static void print_margin(char out[CELL], const gate *g) {
-  double use = gate_use(g);
-  if (use == 0)
-    snprintf(out, CELL, "exact");
-  else if (isinf(use))
-    snprintf(out, CELL, "-");
-  else
-    snprintf(out, CELL, "%.3gx", 1 / use);
-}
-
-// `change`: against the baseline.
-static void add_row(term_table *table, const gate *g, const char *change) {
-  char signal[MEASUREMENT_FULL_NAME], metric[MEASUREMENT_METRIC], value[CELL], limit[CELL],
-      margin[CELL], at[CELL] = "";
-  const char *space = *g->what.unit ? " " : "";
-  snprintf(value, sizeof value, "%.3g", g->what.value);
-  snprintf(limit, sizeof limit, "%.3g%s%s", g->rule->limit, space, g->what.unit);
-  print_margin(margin, g);
-  if (isfinite(g->what.time)) snprintf(at, sizeof at, "%.4g s", g->what.time);
-  term_table_add(
-      table, g->pass ? TERM_PLAIN : TERM_BAD,
-      (const char *const[]){"", g->what.layer, measurement_full_name(signal, &g->what),
-                            measurement_metric(metric, g->what.metric, g->what.from, g->what.to),
-                            value, limit, margin, at, change});
-}
-
-// `entry` is the scenario in the document.
-static void print_gates(const comparison *c, const json_t *entry, bool all, FILE *stream) {
+static void print_gates(const json_t *entry, bool all, FILE *stream) {
   static const term_column columns[] = {
       {"", TERM_LEFT},        {"layer", TERM_LEFT},  {"signal", TERM_LEFT},
       {"metric", TERM_LEFT},  {"value", TERM_RIGHT}, {"limit", TERM_RIGHT},
       {"margin", TERM_RIGHT}, {"at", TERM_RIGHT},    {"baseline", TERM_LEFT}};
-  int count = sizeof columns / sizeof *columns - !json_object_get(entry, "baseline");
-  const gate **sorted = gates_by_margin(&c->gates);
-  term_table *table = term_table_create(columns, count);
-  size_t shown = gates_failed(&c->gates) + SHOWN_GATES;
-  if (all || shown > c->gates.count) shown = c->gates.count;
-  for (size_t i = 0; sorted && i < shown; i++)
-    add_row(table, sorted[i], report_gate_at(entry, (size_t)(sorted[i] - c->gates.items)).change);
+  size_t count, shown = report_failed_gates(entry) + SHOWN_GATES;
+  report_gate *gates = report_gates_by_margin(entry, &count);
+  term_table *table = term_table_create(columns, sizeof columns / sizeof *columns -
+                                                     !json_object_get(entry, "baseline"));
+  if (all || shown > count) shown = count;
+  for (size_t i = 0; gates && i < shown; i++) add_row(table, &gates[i]);
   if (shown > 0) term_table_print(table, stream);
   term_table_free(table);
-  free(sorted);
+  free(gates);
 }
 
-static void print_scenario(const comparison *c, const json_t *entry, bool explained, bool all,
-                           FILE *stream) {
-  const scenario *s = c->scenario;
-  term_style style = c->verdict == VERDICT_AGREE ? TERM_GOOD : TERM_BAD;
-  fprintf(stream, "\n%s%s%s  %s: %s (%zu gate%s)\n", term_style_begin(stream, style),
-          verdict_string(c->verdict), term_style_end(stream, style), s->name, s->title,
-          c->gates.count, plural(c->gates.count));
-  if (c->first_failure && !explained) print_cause(c, stream);
-  print_gates(c, entry, all, stream);
+static void print_scenario(const json_t *entry, bool explained, bool all, FILE *stream) {
+  size_t gates = report_count(entry, "gates");
+  fputc('\n', stream);
+  print_coloured(stream, entry, report_text(entry, "verdict"));
+  fprintf(stream, "  %s: %s (%zu gate%s)\n", report_text(entry, "name"),
+          report_text(entry, "title"), gates, gates == 1 ? "" : "s");
+  if (!report_agrees(entry) && !explained) print_cause(entry, stream);
+  print_gates(entry, all, stream);
 }
 
-void report_print(const report *r, const json_t *document, bool all, FILE *stream) {
-  const json_t *scenarios = json_object_get(document, "scenarios");
-  const comparison *failure = report_first_failure(r);
-  print_verdict(r, stream);
-  for (size_t i = 0; i < r->count; i++) {
-    const comparison *c = &r->comparisons[i];
-    print_scenario(c, json_array_get(scenarios, i), c == failure, all, stream);
+void report_print(const json_t *document, bool all, FILE *stream) {
+  size_t i;
+  const json_t *entry, *failing = report_first_failing(document);
+  print_verdict(document, stream);
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    print_scenario(entry, entry == failing, all, stream);
   }
   if (!all)
     fprintf(stream,

@@ -95,6 +95,16 @@ bool report_agrees(const json_t *object) {
   return strcmp(report_text(object, "verdict"), "agree") == 0;
 }
 
+const json_t *report_first_failing(const json_t *document) {
+  size_t i;
+  const json_t *entry;
+  const char *worst = report_text(document, "verdict");
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    if (!report_agrees(document) && strcmp(report_text(entry, "verdict"), worst) == 0) return entry;
+  }
+  return NULL;
+}
+
 const json_t *report_engine(const json_t *entry, const char *role) {
   size_t i;
   const json_t *player;

@@ -49,6 +49,9 @@ size_t report_changed_gates(const json_t *entry, const char *change);
 // "agree" or anything else.
 bool report_agrees(const json_t *object);
 
+// The first scenario that has the document's verdict; NULL where all agree.
+const json_t *report_first_failing(const json_t *document);
+
 // The engine of a scenario that plays a role: "reference", "candidate"; NULL if there is none.
 const json_t *report_engine(const json_t *entry, const char *role);
 

@@ -84,8 +84,12 @@ bool report_summary(const report *r, const json_t *document, FILE *stream) {
   fprintf(stream, "| verdict | scenario | ride | gates hold | closest | margin |%s\n",
           compared ? " baseline |" : "");
   fprintf(stream, "|---|---|---|---|---|---|%s\n", compared ? "---|" : "");
-  json_array_foreach(scenarios, i, entry) print_row(stream, entry);
-  json_array_foreach(scenarios, i, entry) print_failures(stream, entry);
+  json_array_foreach(scenarios, i, entry) {
+    print_row(stream, entry);
+  }
+  json_array_foreach(scenarios, i, entry) {
+    print_failures(stream, entry);
+  }
   fputs("\nDetails: `report.html`; ", stream);
   print_text(stream, report_text(json_object_get(document, "provenance"), "command"));
   fputc('\n', stream);

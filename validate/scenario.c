@@ -298,6 +298,7 @@ static int parse(scenario *s, bike_file_error *error) {
   if (!code) code = scenario_load_input(&yaml, &s->input, s->duration);
   if (!code) code = check_rider(&yaml, s);
   tell_engines(s);
+  if (!code) code = scenario_check_studies(&yaml, s);
   bike_yaml_close(&yaml);
   bike_text_free(&text);
   return code;

@@ -126,10 +126,6 @@ void scenario_clear(scenario *s);
 // The lean at which rides end, rad, the same for all engines; a scenario's start is below it.
 double scenario_lean_limit(void);
 
-// Rows are at k sample, which is not to the last digit what people write in a window: this share of
-// a sample is no difference.
-#define SCENARIO_ROW_SLACK 1e-6
-
 // Whether anything acts on the bicycle, and what at a time (a bike_input_function).
 bool scenario_has_input(const scenario_input *input);
 void scenario_input_at(double time, bike_input *out, void *input);

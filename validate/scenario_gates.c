@@ -74,14 +74,16 @@ static int check_only_for(const bike_yaml *yaml, const bike_field *where, const 
 // that ends before its time is another matter.
 static int check_rows(const bike_yaml *yaml, const bike_field *from, const gate_rule *rule,
                       const gate_rules *rules) {
-  double duration = rules->duration, sample = rules->sample, slack = SCENARIO_ROW_SLACK * sample;
+  double duration = rules->duration, sample = rules->sample;
   if (!(duration > 0 && sample > 0)) return BIKE_OK; // their absence is said elsewhere
-  if (rule->from > duration + slack)
+  if (!gate_covers(0, duration, rule->from, sample))
     return bike_yaml_fail(yaml, from, BIKE_ERROR_SYNTAX, "%g s is after the end of the ride, %g s",
                           rule->from, duration);
   double end = rule->to > 0 ? fmin(rule->to, duration) : duration;
-  double first = ceil((rule->from - slack) / sample) * sample;
-  if (first <= end + slack) return BIKE_OK;
+  double row = floor(rule->from / sample) * sample; // the last that is not later, and the next
+  if (gate_covers(rule->from, end, row, sample) ||
+      gate_covers(rule->from, end, row + sample, sample))
+    return BIKE_OK;
   return bike_yaml_fail(yaml, from, BIKE_ERROR_SYNTAX,
                         "no row lies from %g to %g s: there is one every %g s", rule->from, end,
                         sample);

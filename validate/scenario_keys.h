@@ -27,6 +27,9 @@ bike_value_reader scenario_read_convergence; // scenario_convergence
 bike_value_reader scenario_read_horizon;     // scenario_horizon
 bike_value_reader scenario_read_cost;        // scenario_cost
 
+// Whether engines and gates are such that they can be answered; when all is read.
+int scenario_check_studies(const bike_yaml *yaml, const scenario *s);
+
 // A whole number 0..most, read as a double.
 int scenario_read_whole(const bike_yaml *yaml, const bike_field *field, double most, double *out);
 

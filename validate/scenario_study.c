@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scenario asks beyond two rides: `linear`, `convergence`, `horizon`, `cost`.
+#include "gate.h"
 #include "scenario_keys.h"
 
 #include <bicycle/error.h>
@@ -111,4 +112,28 @@ static int read_repeats(const bike_yaml *yaml, const bike_field *field, void *ta
 int scenario_read_cost(const bike_yaml *yaml, const bike_field *field, void *target) {
   static const bike_key keys[] = {{"repeats", read_repeats, 0, true}};
   return read_mapping(yaml, field, keys, 1, target);
+}
+
+//---------------------------------- before anything is ridden -------------------------------------
+
+static bool limits_a_signal(const gate_rules *rules) {
+  for (size_t i = 0; i < rules->count; i++)
+    for (int k = 0; k < TRACE_SIGNAL_COUNT; k++)
+      if (gate_limits_max(&rules->items[i], rules, trace_signals[k].name)) return true;
+  return false;
+}
+
+int scenario_check_studies(const bike_yaml *yaml, const scenario *s) {
+  bike_field field;
+  if (s->convergence.count > 0 && !(engine_order(&s->candidate) > 0)) {
+    bike_yaml_find(yaml->root, "convergence", &field);
+    return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX,
+                          "the engine '%s' chooses its steps itself", s->candidate.engine->name);
+  }
+  if (s->horizon.asked && !limits_a_signal(&s->rules)) {
+    bike_yaml_find(yaml->root, "horizon", &field);
+    return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX,
+                          "no gate limits 'max' of a signal of layer L2");
+  }
+  return BIKE_OK;
 }

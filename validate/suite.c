@@ -19,7 +19,8 @@ static term_exit check_names(const suite *s, problem *p) {
   for (size_t i = 0; i < s->count; i++)
     for (size_t k = 0; k < i; k++)
       if (strcmp(s->scenarios[i].name, s->scenarios[k].name) == 0)
-        return problem_set(p, TERM_USAGE, "two scenarios have the name '%s'", s->scenarios[i].name);
+        return problem_set(p, TERM_USAGE, "%.400s, %.400s: two scenarios have the name '%s'",
+                           s->scenarios[k].path, s->scenarios[i].path, s->scenarios[i].name);
   return TERM_DONE;
 }
 

@@ -76,6 +76,10 @@ const trace_signal *trace_find_signal(const char *name) {
   return NULL;
 }
 
+bool trace_is_contact(const trace_signal *signal) {
+  return signal->offset >= offsetof(trace_row, slip);
+}
+
 bool trace_has(const trace *t, const trace_signal *signal) {
   return !(t->missing >> (signal - trace_signals) & 1);
 }

@@ -54,6 +54,10 @@ enum { TRACE_SIGNAL_COUNT = 27 };
 extern const trace_signal trace_signals[TRACE_SIGNAL_COUNT];
 
 const trace_signal *trace_find_signal(const char *name);
+
+// Slip and height of the wheels, which only a trace with has_contacts has.
+bool trace_is_contact(const trace_signal *signal);
+
 bool trace_has(const trace *t, const trace_signal *signal);
 double trace_value(const trace_row *row, const trace_signal *signal);
 

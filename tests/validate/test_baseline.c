@@ -195,6 +195,8 @@ static void test_bless_and_compare(void **state) {
   support_expect_text("out", "SAME as the baseline");
   assert_int_equal(support_validate("benchmark_m1 --baseline again.json"), 4);
   support_expect_text("err", "no scenario 'benchmark_m1'");
+  assert_int_equal(support_validate("compare again.json bicycle-report"), 4);
+  support_expect_text("err", "compare: again.json: the baseline has no scenario 'benchmark_m1'");
   assert_int_equal(support_validate("list"), 0); // the report of that run is there all the same
   assert_int_equal(support_validate("bless bicycle-report -o m1.json"), 0);
 }
@@ -236,6 +238,16 @@ static void test_wrong_files(void **state) {
   support_expect_text("err", "list.json: schema");
   assert_int_equal(support_validate("compare broken.json list.json"), 4);
   support_expect_text("err", "broken.json:2:");
+  static const char *const scenarios[] = {"[1]", "[{\"name\": \"a\"}]",
+                                          "[{\"name\": \"a\", \"gates\": [1]}]"};
+  for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++) {
+    char text[200];
+    snprintf(text, sizeof text, "{\"schema\": \"%s\", \"version\": %d, \"scenarios\": %s}",
+             REPORT_SCHEMA, REPORT_VERSION, scenarios[i]);
+    free(support_write(support_home, "shape.json", text));
+    assert_int_equal(support_validate("compare shape.json shape.json"), 4);
+    support_expect_text("err", "shape.json: scenarios: number 1 is none");
+  }
   assert_int_equal(support_validate("bless empty.json"), 4);
   assert_int_equal(support_validate("bless other.json"), 4);
   assert_int_equal(support_validate("compare other.json"), 2);

@@ -113,21 +113,31 @@ static void test_contact_is_another_model(void **state) {
   assert_near(plateau[1] / plateau[0], 0.5, 0.1); // it falls with solref
 }
 
-static void expect_usage(const char *text, const char *says) {
+// Refused on reading.
+static void expect_refusal(const char *text, const char *says) {
   problem p = {""};
-  support_run *f = support_open(NULL, text);
-  assert_int_equal(comparison_run(&f->comparison, &p), TERM_USAGE);
+  scenario s;
+  char *folder = support_folder(), *path = support_write(folder, "test.yml", text);
+  assert_int_equal(scenario_read(&s, path, &p), TERM_USAGE);
   if (!strstr(p.text, says)) fail_msg("'%s' does not say '%s'", p.text, says);
-  support_close(f);
+  free(path);
+  support_remove(folder);
 }
 
 static void test_convergence_refusals(void **state) {
   (void)state;
   char text[900];
   snprintf(text, sizeof text, conv_text, "integrator: cvode", "4e-3, 2e-3, 1e-3, 5e-4", "1e-11");
-  expect_usage(text, "chooses its steps itself");
+  expect_refusal(text, "convergence: the engine 'mujoco' chooses its steps itself");
+  char *recorded = support_replace(text, "engine: mujoco, integrator: cvode", "engine: linear");
+  expect_refusal(recorded, "convergence: the engine 'linear' chooses its steps itself");
+  free(recorded);
   snprintf(text, sizeof text, conv_text, "root: hinge", "3e-2, 2e-3, 1e-3, 5e-4", "1e-11");
-  expect_usage(text, "timestep 0.03 s");
+  problem p = {""};
+  support_run *f = support_open(NULL, text);
+  assert_int_equal(comparison_run(&f->comparison, &p), TERM_USAGE);
+  if (!strstr(p.text, "timestep 0.03 s")) fail_msg("%s", p.text);
+  support_close(f);
 }
 
 //---------------------------------- L1, L5 --------------------------------------------------------
@@ -207,11 +217,21 @@ static void test_horizon(void **state) {
 
 static void test_horizon_needs_a_limit(void **state) {
   (void)state;
-  expect_usage("title: x\nbicycle: benchmark\nstart: {speed: 5}\nduration: 0.1\nsample: 0.1\n"
-               "instants: {count: 0}\nreference: {engine: analytic}\ncandidate: {engine: linear}\n"
-               "horizon: {share: 0.1}\n"
-               "gates:\n  - {layer: L2, metric: rmse, limit: 1, reason: test}\n",
-               "no gate limits 'max'");
+  static const char *const gates[] = {
+      "{layer: L2, metric: rmse, limit: 1, reason: test}",
+      "{layer: L2, metric: max, signals: [rear_force], limit: 1, reason: not of a signal}",
+      "{layer: L2, metric: max, limit: 1, reason: r}\n"
+      "  - {layer: L2, metric: max, info: true, reason: takes its place}\n"
+      "  - {layer: L2, metric: rmse, limit: 1, reason: test}"};
+  for (size_t i = 0; i < sizeof gates / sizeof *gates; i++) {
+    char text[900];
+    snprintf(text, sizeof text,
+             "title: x\nbicycle: benchmark\nstart: {speed: 5}\nduration: 0.1\nsample: 0.1\n"
+             "instants: {count: 0}\nreference: {engine: analytic}\ncandidate: {engine: linear}\n"
+             "horizon: {share: 0.1}\ngates:\n  - %s\n",
+             gates[i]);
+    expect_refusal(text, ":9: horizon: no gate limits 'max' of a signal of layer L2");
+  }
 }
 
 //---------------------------------- tube, cost ----------------------------------------------------

@@ -93,10 +93,6 @@ static void test_last_rule_judges(void **state) {
   assert_false(gates.items[0].pass);
   assert_near(gates.items[0].rule->limit, 0.25, 0);
   assert_true(gates.items[1].pass);
-  assert_int_equal(gates_failed(&gates), 1);
-  const gate **sorted = gates_by_margin(&gates);
-  assert_string_equal(sorted[0]->what.signal, "lean");
-  free(sorted);
   gates_clear(&gates);
 }
 
@@ -127,7 +123,7 @@ static void test_unmeasured_fails(void **state) {
   gate_list gates = {0};
   assert_true(gates_judge(&gates, &nothing, &rules, 5));
   assert_int_equal(gates.count, 2);
-  assert_int_equal(gates_failed(&gates), 2);
+  assert_false(gates.items[0].pass || gates.items[1].pass);
   gates_clear(&gates);
   assert_true(gates_judge(&gates, &nothing, &rules, 4)); // L3 was not reached: nothing to say
   assert_int_equal(gates.count, 0);

@@ -7,6 +7,7 @@
 #include <folder.h>
 #include <report.h>
 #include <report_pack.h>
+#include <report_read.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -225,6 +226,44 @@ static void test_views_escape(void **state) {
   free(text);
 }
 
+// The closest gate of all is of a part of the ride, and the page says so.
+static void test_page_names_the_part(void **state) {
+  (void)state;
+  char *text = support_replace(support_scenario_text, "signals: [lean, steer], limit: 1e-11",
+                               "signals: [lean], limit: 1e-12, from: 0.1, to: 0.4");
+  fixture *f = open_fixture(text);
+  problem p = {""};
+  assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
+  char *html = view_of(f, "report.html");
+  expect_part(html, "Closest to its limit: ");
+  expect_part(html, "</a>, L2 lean max (0.1 to 0.4 s): ");
+  free(html);
+  close_fixture(f);
+  free(text);
+}
+
+// Failures first, a NaN before all, then by what is used of the limit; ties as measured.
+static void test_gates_by_margin(void **state) {
+  (void)state;
+  static const char entry[] =
+      "{\"gates\": [{\"signal\": \"a\", \"value\": 1, \"limit\": 4, \"pass\": true},"
+      "{\"signal\": \"b\", \"value\": 3, \"limit\": 4, \"pass\": true},"
+      "{\"signal\": \"c\", \"value\": 5, \"limit\": 4, \"pass\": false},"
+      "{\"signal\": \"d\", \"value\": null, \"limit\": 4, \"pass\": false},"
+      "{\"signal\": \"e\", \"value\": 0, \"limit\": 0, \"pass\": true},"
+      "{\"signal\": \"f\", \"value\": 1, \"limit\": 4, \"pass\": true}]}";
+  json_t *document = json_loads(entry, 0, NULL);
+  size_t count;
+  report_gate *gates = report_gates_by_margin(document, &count);
+  char order[8] = "";
+  assert_int_equal(count, 6);
+  for (size_t i = 0; i < count; i++) order[i] = *gates[i].signal;
+  assert_string_equal(order, "dcbafe");
+  assert_int_equal(report_failed_gates(document), 2);
+  free(gates);
+  json_decref(document);
+}
+
 // A run without rides has a page too, and one test that says why.
 static void test_views_of_invalid_run(void **state) {
   (void)state;
@@ -346,6 +385,8 @@ int main(void) {
       cmocka_unit_test(test_same_twice),
       cmocka_unit_test(test_csv),
       cmocka_unit_test(test_views_escape),
+      cmocka_unit_test(test_page_names_the_part),
+      cmocka_unit_test(test_gates_by_margin),
       cmocka_unit_test(test_views_of_invalid_run),
       cmocka_unit_test(test_page_is_thinned),
       cmocka_unit_test(test_earlier_report_is_replaced),

@@ -47,7 +47,7 @@ static support_run *play(const char *asked) {
 static double judge(bool *pass, const char *asked, const char *metric) {
   support_run *f = play(asked);
   double value = support_find(&f->comparison, "L2", "lean", metric)->value;
-  *pass = gates_failed(&f->comparison.gates) == 0;
+  *pass = support_failed_gates(&f->comparison.gates) == 0;
   assert_int_equal(*pass, *f->comparison.cause == '\0');
   support_close(f);
   return value;
@@ -130,7 +130,7 @@ static void test_several_windows(void **state) {
       "metric: max, limit: 1e-8, to: 0.1}\n"
       "  - {layer: L2, metric: max, signals: [lean], limit: 1e-8, from: 0.1, to: 0.25, reason: r");
   support_expect_failure(&f->comparison, "L2", "max (0.1 to 0.25 s)");
-  assert_int_equal(gates_failed(&f->comparison.gates), 1);
+  assert_int_equal(support_failed_gates(&f->comparison.gates), 1);
   support_close(f);
 }
 
@@ -155,7 +155,8 @@ static void test_empty_window_says_so(void **state) {
   const gate *missed = gate_of(&f->comparison, m);
   assert_non_null(missed);
   assert_false(missed->pass);
-  assert_int_equal(gates_failed(&f->comparison.gates), 2); // and that it ends before its time
+  assert_int_equal(support_failed_gates(&f->comparison.gates),
+                   2); // and that it ends before its time
   support_close(f);
 }
 

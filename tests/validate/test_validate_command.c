@@ -67,7 +67,7 @@ static void test_usage_is_2(void **state) {
       {"-o /dev/null roadster_straight", "not a folder"},
       {"-o none/report roadster_straight", "none: No such file"},
       {"-o . roadster_straight", "is not a report"},
-      {"roadster_straight roadster_straight", "two scenarios have the name"},
+      {"roadster_straight roadster_straight", "roadster_straight.yml: two scenarios have the name"},
       {"list roadster_straight", "one argument too many"},
       {"''", "the name of a scenario"},
   };

@@ -181,6 +181,12 @@ comparison *support_play(support_run *run) {
   return &run->comparison;
 }
 
+size_t support_failed_gates(const gate_list *gates) {
+  size_t failed = 0;
+  for (size_t i = 0; i < gates->count; i++) failed += !gates->items[i].pass;
+  return failed;
+}
+
 void support_expect_failure(const comparison *c, const char *layer_name, const char *named) {
   assert_int_equal(c->verdict, VERDICT_FAIL);
   assert_non_null(c->first_failure);

@@ -58,6 +58,9 @@ void support_close(support_run *run);
 // Measures and judges; the test fails on a problem.
 comparison *support_play(support_run *run);
 
+// How many gates of a comparison fail.
+size_t support_failed_gates(const gate_list *gates);
+
 // The comparison failed, that layer first, and the cause holds that text.
 void support_expect_failure(const comparison *c, const char *layer_name, const char *named);
 
