@@ -13,17 +13,14 @@ static void project_warmstart(roll_system *s, const mjModel *m, mjData *d) {
   mju_addTo(d->qacc_warmstart, s->dof_work, s->nv);
 }
 
-// A wheel this part of its radius off the ground, or off its velocity by as much in the time in
-// which errors decay (1/5 s), was put there: no integration error comes near it.
 static int is_off(const roll_contact *contact) {
-  const mjtNum share = 0.01, decay = 5;
-  mjtNum most = share * contact->radius, speed2 = 0;
+  mjtNum most = ROLL_OFF_SHARE * contact->radius, speed2 = 0;
   if (contact->error || contact->radius == 0) return 0;
   for (int k = 0; k < contact->rows; k++) {
     mjtNum speed = mju_dot3(contact->direction[k], contact->velocity);
     speed2 += speed * speed;
   }
-  return fabs(contact->height) > most || sqrt(speed2) > decay * most;
+  return fabs(contact->height) > most || sqrt(speed2) > ROLL_DECAY * most;
 }
 
 static void warn_of_state(const roll_system *s, const mjModel *m, const mjData *d) {
@@ -72,7 +69,7 @@ static void warn_of_sensors(const mjModel *m, const mjData *d) {
     blind |= type == mjSENS_FORCE || type == mjSENS_TORQUE;
   }
   if (blind)
-    roll_warn(ROLL_SAY_SENSOR,
+    roll_warn(ROLL_SAY_BLIND,
               "rolling discs: force and torque sensors do not see the ground's forces unless the "
               "model has a user sensor at stage acc, such as <user name=\"rolling:WHEEL:normal\" "
               "objtype=\"body\" objname=\"WHEEL\" datatype=\"real\" dim=\"1\" needstage=\"acc\"/>",

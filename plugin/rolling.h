@@ -182,6 +182,11 @@ ROLL_API roll_error roll_drives(roll_drive *drives, int count, const mjModel *m,
 
 //---------------------------------- the constraint ------------------------------------------------
 
+// A wheel this part of its radius off the ground, or off its velocity by as much in the time in
+// which errors decay (1/ROLL_DECAY s), was put there: no integration error comes near it.
+#define ROLL_OFF_SHARE 0.01
+#define ROLL_DECAY 5.0 // rad/s of Baumgarte's gains, critically damped
+
 // The callback: an mjcb_control. Calls the one that roll_install found, then makes the discs roll.
 // Returns at once for a model without the tuples.
 ROLL_API void roll_control(const mjModel *m, mjData *d);

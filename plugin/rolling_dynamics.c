@@ -2,12 +2,12 @@
 // What the constraints demand of the accelerations, and the forces that give it.
 #include "rolling_internal.h"
 
-// Baumgarte's gains, rad/s and rad^2/s^2: critically damped at 5 rad/s. Measured on the wildest
+// Baumgarte's gains, rad/s and rad^2/s^2: critically damped at ROLL_DECAY. Measured on the wildest
 // shipped ride (lean 20 deg, steer -17 deg at 6 m/s, RK4, 1 ms): the error of the steer is 8.4e-12
 // rad at 5 rad/s, 1.0e-11 at 10, 1.5e-11 at 20, 5.8e-11 at 100, as the pull back to the ground
 // feeds integration error of the constraint into the motion; without it the heights drift (8e-12
 // rad and 5e-12 m in 10 s). Unstable near velocity_gain * timestep = 2.7.
-static const mjtNum velocity_gain = 10, position_gain = 25;
+static const mjtNum velocity_gain = 2 * ROLL_DECAY, position_gain = ROLL_DECAY * ROLL_DECAY;
 
 // d/dt of a row (d.v) is d'.v + d.(Jdot qvel + J qacc);  d.J qacc = -d.Jdot qvel - d'.v - bv d.v -
 // bp g (d.u)

@@ -226,6 +226,7 @@ typedef enum roll_message {
   ROLL_SAY_REPEATED,
   ROLL_SAY_START,
   ROLL_SAY_SENSOR,
+  ROLL_SAY_BLIND,
   ROLL_SAY_WORK,
   ROLL_MESSAGES
 } roll_message;
@@ -239,9 +240,9 @@ void roll_warn_of(roll_message message, roll_error error, roll_object where, con
 
 //---------------------------------- names (rolling_name.c) ----------------------------------------
 
-// Takes "rolling:NAME:QUANTITY" apart: its quantity, and the length of NAME, which starts at
-// name + 8. NULL for any other text.
-const char *roll_split_name(int *length, const char *name);
+// Takes "rolling:NAME:QUANTITY" apart: its quantity ("" without one), and NAME with its length.
+// NULL for a text that does not begin so.
+const char *roll_split_name(const char **object, int *length, const char *name);
 
 // Index of the disc or skate, or of the driven joint, with that name; -1 without.
 int roll_find_wheel(const mjModel *m, const char *name, int length);

@@ -7,12 +7,12 @@
 static const char prefix[] = "rolling:";
 enum { PREFIX = sizeof prefix - 1 };
 
-const char *roll_split_name(int *length, const char *name) {
+const char *roll_split_name(const char **object, int *length, const char *name) {
   if (strncmp(name, prefix, PREFIX) != 0) return NULL;
-  const char *last = strrchr(name + PREFIX, ':'); // NAME may have colons of its own
-  if (!last) return NULL;
-  *length = (int)(last - name - PREFIX);
-  return last + 1;
+  *object = name + PREFIX;
+  const char *last = strrchr(*object, ':'); // NAME may have colons of its own
+  *length = last ? (int)(last - *object) : 0;
+  return last ? last + 1 : "";
 }
 
 static int is_named(const mjModel *m, int address, const char *name, int length) {

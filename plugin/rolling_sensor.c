@@ -61,11 +61,10 @@ static int is_model(const char *object, int length) {
 // 0 for a sensor that asks nothing of the discs.
 static int read_question(question *q, const mjModel *m, int sensor) {
   int length;
-  const char *name = m->names + m->name_sensoradr[sensor];
+  const char *object;
   if (m->sensor_type[sensor] != mjSENS_USER) return 0;
-  const char *last = roll_split_name(&length, name);
+  const char *last = roll_split_name(&object, &length, m->names + m->name_sensoradr[sensor]);
   if (!last) return 0;
-  const char *object = last - length - 1;
   q->wheel = roll_find_wheel(m, object, length);
   q->drive = q->wheel < 0 ? roll_find_drive(m, object, length) : -1;
   q->quantity = NULL;
@@ -119,6 +118,7 @@ static void answer(mjtNum *data, const question *q, const roll_system *s, const 
     memcpy(data, from + q->quantity->offset, sizeof(mjtNum) * (size_t)q->quantity->dim);
 }
 
+// `s` is NULL of a model without anything that rolls, which may ask for its energy.
 static void answer_all(const roll_system *s, const mjModel *m, mjData *d) {
   question q;
   for (int i = 0; i < m->nsensor; i++) {
@@ -176,18 +176,10 @@ static void repair(const roll_system *s, const mjModel *m, mjData *d) {
   }
 }
 
-// A model without anything that rolls may ask for its energy.
-static void answer_unmarked(const mjModel *m, mjData *d) {
-  question q;
-  for (int i = 0; i < m->nsensor; i++)
-    if (read_question(&q, m, i) && q.quantity)
-      answer_of_model(d->sensordata + m->sensor_adr[i], &q, m, d);
-}
-
 void roll_sense(const mjModel *m, mjData *d) {
   roll_marker marker = roll_find_marker(m);
   if (!roll_is_marked(&marker)) {
-    answer_unmarked(m, d);
+    answer_all(NULL, m, d);
     return;
   }
   mjMARKSTACK;

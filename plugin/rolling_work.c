@@ -8,10 +8,11 @@
 // Whether an actuator asks for work, and of which driven joint: its index, -1 of none.
 static int asks_for_work(int *drive, const mjModel *m, int actuator) {
   int length;
-  const char *name = m->names + m->name_actuatoradr[actuator];
-  const char *quantity = roll_split_name(&length, name);
+  const char *object;
+  const char *quantity =
+      roll_split_name(&object, &length, m->names + m->name_actuatoradr[actuator]);
   if (!quantity) return 0;
-  *drive = strcmp(quantity, "work") == 0 ? roll_find_drive(m, quantity - length - 1, length) : -1;
+  *drive = strcmp(quantity, "work") == 0 ? roll_find_drive(m, object, length) : -1;
   return 1;
 }
 

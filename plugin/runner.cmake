@@ -28,6 +28,7 @@ add_library(mujoco_runner STATIC
   runner_measure.c
   runner_posture.c
   runner_ride.c
+  runner_solve.c
   runner_start.c
   runner_times.c)
 target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})

@@ -97,12 +97,11 @@ static void measure(void *argument) {
   if (r->drive_count > 0) roll_drives(r->drives, r->drive_count, r->model, r->probe);
 }
 
-// The bounds within which rolling.h takes a wheel for one that rolls: 1 % of its radius off the
-// ground, or that in the 1/5 s in which errors decay. A point of a skate has none.
+// The bounds within which rolling.h takes a wheel for one that rolls. A point of a skate has none.
 static bool keeps_the_ground(const roll_disc *disc) {
-  static const double share = 0.01, decay = 5;
-  double most = share * disc->radius, speed = hypot(mju_norm3(disc->slip), disc->height_rate);
-  return most == 0 || (fabs(disc->height) <= most && speed <= decay * most);
+  double most = ROLL_OFF_SHARE * disc->radius,
+         speed = hypot(mju_norm3(disc->slip), disc->height_rate);
+  return most == 0 || (fabs(disc->height) <= most && speed <= ROLL_DECAY * most);
 }
 
 static bool all_can_roll(const runner_any *r, mjcf_error *error) {

@@ -14,30 +14,6 @@ static void refresh(const runner *r, mjData *d) {
   mj_comVel(r->model, d);
 }
 
-// A x = b by elimination with row pivots; b becomes x. False if A is singular.
-static bool solve(int n, double A[ALL][ALL], double b[ALL]) {
-  for (int k = 0; k < n; k++) {
-    int pivot = k;
-    for (int i = k + 1; i < n; i++)
-      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
-    if (!(fabs(A[pivot][k]) > mjMINVAL)) return false;
-    for (int j = 0; j < n; j++) {
-      double t = A[k][j];
-      A[k][j] = A[pivot][j], A[pivot][j] = t;
-    }
-    double t = b[k];
-    b[k] = b[pivot], b[pivot] = t;
-    for (int i = 0; i < n; i++) {
-      if (i == k) continue;
-      double factor = A[i][k] / A[k][k];
-      for (int j = k; j < n; j++) A[i][j] -= factor * A[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (int k = 0; k < n; k++) b[k] /= A[k][k];
-  return true;
-}
-
 // The freedoms of the root: all but steer and wheels.
 static void find_root_dofs(int out[ROOT], const runner *r) {
   const runner_map *map = &r->map;
@@ -73,7 +49,7 @@ static void find_place_rates(double out[ROOT], const runner *r, const mjData *d)
 // One step towards a lean; false where the conditions do not determine it.
 static bool step_towards(double *off, const runner *r, mjData *d, const int dof[ROOT],
                          double lean) {
-  double A[ALL][ALL] = {{0}}, b[ALL] = {0}, change[ALL] = {0};
+  double A[ROOT * ROOT], b[ROOT], change[ALL] = {0};
   find_place(b, r, d);
   b[5] -= lean;
   *off = 0;
@@ -84,9 +60,9 @@ static bool step_towards(double *off, const runner *r, mjData *d, const int dof[
     d->qvel[dof[k]] = 1;
     mj_comVel(r->model, d);
     find_place_rates(column, r, d);
-    for (int i = 0; i < ROOT; i++) A[i][k] = column[i];
+    for (int i = 0; i < ROOT; i++) A[ROOT * i + k] = column[i];
   }
-  if (!solve(ROOT, A, b)) return false;
+  if (!runner_solve(ROOT, A, b)) return false;
   for (int k = 0; k < ROOT; k++) change[dof[k]] = -b[k];
   mj_integratePos(r->model, d->qpos, change, 1);
   refresh(r, d);
@@ -134,15 +110,15 @@ static void find_rates(double out[ALL], const runner *r, mjData *d) {
 }
 
 static bool find_velocity(const runner *r, mjData *d, const bike_state *state) {
-  double A[ALL][ALL], column[ALL];
+  double A[ALL * ALL], column[ALL];
   double b[ALL] = {0, 0, 0, 0, 0, 0, state->speed, state->lean_rate, state->steer_rate};
   for (int k = 0; k < ALL; k++) {
     mju_zero(d->qvel, ALL);
     d->qvel[k] = 1;
     find_rates(column, r, d);
-    for (int i = 0; i < ALL; i++) A[i][k] = column[i];
+    for (int i = 0; i < ALL; i++) A[ALL * i + k] = column[i];
   }
-  if (!solve(ALL, A, b)) return false;
+  if (!runner_solve(ALL, A, b)) return false;
   mju_copy(d->qvel, b, ALL);
   mj_comVel(r->model, d);
   return true;

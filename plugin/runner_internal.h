@@ -171,6 +171,12 @@ runner_status runner_check_any(const mjModel *m, const mjData *d, const struct g
 // Whether a step brought d from that time on by one timestep.
 runner_status runner_check_time(const mjData *d, double from, double step, mjcf_error *error);
 
+//---------------------------------- linear systems (runner_solve.c) -------------------------------
+
+// A x = b (A n x n, row-major) by elimination with row pivots; b becomes x, A is used up. False if
+// A is singular.
+bool runner_solve(int n, double *A, double *b);
+
 //---------------------------------- times (runner_times.c) ----------------------------------------
 
 // How often `part` goes into `whole`, and whether it does so without a rest: times are typed in

@@ -9,7 +9,6 @@
 #include "runner_internal.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { YAW, ROLL, PITCH, X = 0, Y, Z, RATES = 7 };
 
@@ -102,41 +101,15 @@ static bool find_position(start *s) {
   return true;
 }
 
-// A x = b by elimination with row pivots; b becomes x. False if A is singular.
-static bool solve(double A[RATES][RATES], double b[RATES]) {
-  for (int k = 0; k < RATES; k++) {
-    int pivot = k;
-    for (int i = k + 1; i < RATES; i++)
-      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
-    if (!(fabs(A[pivot][k]) > mjMINVAL)) return false;
-    for (int j = 0; j < RATES && pivot != k; j++) {
-      double t = A[k][j];
-      A[k][j] = A[pivot][j], A[pivot][j] = t;
-    }
-    double t = b[k];
-    b[k] = b[pivot], b[pivot] = t;
-    for (int i = k + 1; i < RATES; i++) {
-      double factor = A[i][k] / A[k][k];
-      for (int j = k; j < RATES; j++) A[i][j] -= factor * A[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (int k = RATES - 1; k >= 0; k--) {
-    for (int j = k + 1; j < RATES; j++) b[k] -= A[k][j] * b[j];
-    b[k] /= A[k][k];
-  }
-  return true;
-}
-
 static bool find_rates(start *s) {
   const bike_state *state = s->state;
-  double A[RATES][RATES], column[RATES], u[RATES] = {0};
+  double A[RATES * RATES], column[RATES], u[RATES] = {0};
   for (int k = 0; k < RATES; k++) {
     double unit[RATES] = {0};
     unit[k] = 1;
     write_rates(s, unit, 0, 0);
     find_velocities(column, s, unit);
-    for (int i = 0; i < RATES; i++) A[i][k] = column[i];
+    for (int i = 0; i < RATES; i++) A[RATES * i + k] = column[i];
   }
   // What lean and steer rate alone would do, and the speed, are to be made up for.
   double b[RATES];
@@ -144,7 +117,7 @@ static bool find_rates(start *s) {
   find_velocities(b, s, u);
   b[6] -= state->speed;
   for (int i = 0; i < RATES; i++) u[i] = -b[i];
-  if (!solve(A, u)) return false;
+  if (!runner_solve(RATES, A, u)) return false;
   write_rates(s, u, state->lean_rate, state->steer_rate);
   return true;
 }

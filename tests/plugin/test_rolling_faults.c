@@ -151,6 +151,10 @@ static void test_bad_sensors(void **unused) {
   check_is_right(m);
   name[strlen(name) - 1] = 'z'; // the model has no such quantity
   check_says(m, ROLL_BAD_SENSOR, mjOBJ_SENSOR, id);
+  memcpy(name, "rolling:energy", sizeof "rolling:energy"); // of what?
+  check_says(m, ROLL_BAD_SENSOR, mjOBJ_SENSOR, id);
+  memcpy(name, "scrolling:energy", sizeof "scrolling:energy"); // somebody else's
+  check_is_right(m);
   mj_deleteModel(m);
 }
 
@@ -309,6 +313,10 @@ static void test_warnings(void **unused) {
   mjModel *m = load("bicycle.xml"), *blind = load("obstacle.xml"), *off = load("disc_free.xml");
   mjModel *bad = mj_copyModel(NULL, m), *twice = load("tricycle.xml");
   mjModel *misspelt = load_custom(TUPLE("rolling_disks"));
+  mjModel *asks = load_text(
+      "<mujoco><worldbody><body name=\"b\"><freejoint/><geom size=\"1\"/></body></worldbody>"
+      "<sensor><user name=\"rolling:model:enrgy\" objtype=\"body\" objname=\"b\" "
+      "datatype=\"real\" dim=\"1\" needstage=\"acc\"/></sensor></mujoco>");
   bad->tuple_objprm[0] = -1;
   off->qpos0[2] += 0.01;
   step_often(m, 0, 0);
@@ -318,6 +326,8 @@ static void test_warnings(void **unused) {
   step_often(bad, 0, 0);
   step_often(blind, 0, 1);
   assert_non_null(strstr(last_warning, "sensors"));
+  step_often(asks, 0, 1);
+  assert_non_null(strstr(last_warning, "(sensor 'rolling:model:enrgy')"));
   step_often(twice, 0, 1);
   assert_non_null(strstr(last_warning, "repeat"));
   step_often(off, 0, 1);
@@ -326,6 +336,7 @@ static void test_warnings(void **unused) {
   assert_non_null(strstr(last_warning, "rolling_driven (tuple 'rolling_disks')"));
   step_often(misspelt, 0, 0);
   mj_deleteModel(misspelt);
+  mj_deleteModel(asks);
   mj_deleteModel(twice);
   mj_deleteModel(bad);
   mj_deleteModel(off);
