@@ -55,8 +55,7 @@ static inline start begun(const kernel_model *m, real s_br, real c_br) {
 //   G = L_r cos kap sin br + R_r cos kap + L_f tau - L_s cos kap cos br - R_f cos psi = 0.
 // cos kap (sin br, cos br) is carried as (cs, a)/r. A Newton step delta = -G/G' = -2p/q becomes the
 // rotation by 2 atan(-p/q), the same to third order, without a division: r grows by q^2 + p^2. As q
-// is 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) where it starts
-// there.
+// is 2 G' r^2, and G' the wheelbase upright, r stays near 1/sqrt(2 wheelbase) if it starts there.
 static inline void newton_rear_angle(int steps, posture *g, const kernel_geometry *L, start from) {
   real cs = g->c_kap * from.s, a = g->c_kap * from.c, r = from.r;
   real across = g->s_kap * g->s_phi;
@@ -75,7 +74,7 @@ static inline void newton_rear_angle(int steps, posture *g, const kernel_geometr
   }
   real norm = 1.0 / (g->c_kap * r), over_a = 1.0 / a; // side by side
   real s = cs * norm, c = a * norm;
-  // what the roundings of the steps have left of 1 - s^2 - c^2, once more than halved
+  // the share that the roundings of the steps have taken from r
   real half = 0.5 * (1.0 - s * s - c * c);
   g->s_br = s + half * s;
   g->c_br = c + half * c;
