@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "angle_range.h"
 
+#include "terminal/command.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-bool cli_parse_angle_range(term_range *out, const char *text) {
+static bool parse(term_range *out, const char *text) {
   char copy[128]; // three numbers with room for all their zeros
   if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) return false;
   char *second = strchr(copy, ':');
@@ -19,4 +22,22 @@ bool cli_parse_angle_range(term_range *out, const char *text) {
   if (range.first > range.last || one_point != (range.count == 1)) return false;
   *out = range;
   return true;
+}
+
+static bool keeps(const term_range *range, const cli_angle_bounds *bounds) {
+  bool above = bounds->from_low ? range->first >= bounds->low : range->first > bounds->low;
+  return above && range->last < bounds->high && range->count >= bounds->least &&
+         range->count <= bounds->most;
+}
+
+term_range cli_angle_range_of(const char *option, const char *text,
+                              const cli_angle_bounds *bounds) {
+  const double degrees = 180 / M_PI;
+  term_range range;
+  if (!parse(&range, text) || !keeps(&range, bounds))
+    term_usage("%s: '%s' is not A:B:N, N angles (%ld to %ld) from A %s %gdeg to B < %gdeg, B > A%s",
+               option, text, bounds->least, bounds->most, bounds->from_low ? ">=" : ">",
+               bounds->low * degrees, bounds->high * degrees,
+               bounds->least == 1 ? " (one: A:A:1)" : "");
+  return range;
 }

@@ -5,7 +5,16 @@
 
 #include "terminal/number.h"
 
-// "A:B:N" as term_parse_range, A and B in radians or, with the suffix deg, in degrees.
-bool cli_parse_angle_range(term_range *out, const char *text);
+// What a command takes: `least` to `most` angles between two limits that are no part of it, or with
+// the lower one where `from_low`.
+typedef struct cli_angle_bounds {
+  double low, high; // rad
+  bool from_low;
+  long least, most;
+} cli_angle_bounds;
+
+// "A:B:N" as term_parse_range, A and B in radians or, with the suffix deg, in degrees; `option` is
+// its name, as in "--leans". A wrong range ends the program through term_usage.
+term_range cli_angle_range_of(const char *option, const char *text, const cli_angle_bounds *bounds);
 
 #endif

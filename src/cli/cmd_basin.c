@@ -35,16 +35,8 @@ typedef struct arguments {
 } arguments;
 
 enum { KEY_SPEED = TERM_KEY_FIRST, KEY_LEANS, KEY_STEERS, KEY_TIME, KEY_THREADS };
-enum { MOST_POINTS = 1001 };
-
-static term_range angles_of(const char *option, const char *text) {
-  term_range range;
-  if (!cli_parse_angle_range(&range, text) || range.count < 2 || range.count > MOST_POINTS ||
-      !(fmax(fabs(range.first), fabs(range.last)) < M_PI))
-    term_usage("%s: '%s' is not A:B:N, N angles (2 to %d) from A to B > A", option, text,
-               MOST_POINTS);
-  return range;
-}
+// A map has two sides; a million rides are the most that a picture can use.
+static const cli_angle_bounds bounds = {.low = -M_PI, .high = M_PI, .least = 2, .most = 1001};
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -61,10 +53,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->speed = term_positive_of("--speed", text);
     return 0;
   case KEY_LEANS:
-    args->leans = angles_of("--leans", text);
+    args->leans = cli_angle_range_of("--leans", text, &bounds);
     return 0;
   case KEY_STEERS:
-    args->steers = angles_of("--steers", text);
+    args->steers = cli_angle_range_of("--steers", text, &bounds);
     return 0;
   case KEY_TIME:
     args->time = term_positive_of("--time", text);

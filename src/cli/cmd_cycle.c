@@ -34,6 +34,8 @@ typedef struct arguments {
 
 enum { KEY_SEARCH = TERM_KEY_FIRST, KEY_LEANS, KEY_SPEED };
 
+static const cli_angle_bounds amplitudes = {.high = M_PI / 2, .least = 1, .most = TERM_MAX_RANGE};
+
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
   switch (key) {
@@ -46,9 +48,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
     return 0;
   case KEY_LEANS:
-    if (!cli_parse_angle_range(&args->leans, text) || !(args->leans.first > 0) ||
-        !(args->leans.last < M_PI / 2))
-      term_usage("--leans: '%s' is not A:B:N, N amplitudes from A > 0 to B < 90deg", text);
+    args->leans = cli_angle_range_of("--leans", text, &amplitudes);
     return 0;
   case KEY_SPEED:
     args->speed = term_positive_of("--speed", text);

@@ -73,14 +73,8 @@ static double axis_of(const char *option, const char *text) {
   return end;
 }
 
-static term_range leans_of(const char *text) {
-  term_range range;
-  if (!cli_parse_angle_range(&range, text) || range.first < 0 || range.last >= M_PI / 2 ||
-      range.count < LEAST_POINTS || range.count > MOST_POINTS)
-    term_usage("--leans: '%s' is not A:B:N, N points (%d to %d) from A >= 0 to B < 90deg, B > A",
-               text, LEAST_POINTS, MOST_POINTS);
-  return range;
-}
+static const cli_angle_bounds lean_bounds = {
+    .high = M_PI / 2, .from_low = true, .least = LEAST_POINTS, .most = MOST_POINTS};
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   arguments *args = state->input;
@@ -96,7 +90,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->speeds = speeds_of(text);
     return 0;
   case KEY_LEANS:
-    args->leans = leans_of(text);
+    args->leans = cli_angle_range_of("--leans", text, &lean_bounds);
     return 0;
   case KEY_INERTIA:
     args->inertia = range_of("--inertia", text, 0);
