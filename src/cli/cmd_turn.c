@@ -17,7 +17,8 @@ static const char documentation[] =
     "Circles ridden with constant lean, steer and speed, hands off or with a constant steer "
     "torque: every one that has the two values given, with its eigenvalues at constant energy. "
     "--speed or --rider-offset alone shows the folds and ends of the branches. A bicycle without "
-    "a rider has --rider-offset 0.";
+    "a rider has --rider-offset 0. At a capsize speed, where riding straight is neutrally stable, "
+    "the turns that branch off it are not distinct from it, and not listed.";
 
 typedef struct arguments {
   term_question question;

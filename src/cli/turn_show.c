@@ -7,11 +7,30 @@
 #include <bicycle/error.h>
 #include <bicycle/modes.h>
 #include <math.h>
+#include <string.h>
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
 static bool has_lifted(const bike_turn *turn) {
   return turn->rear_normal < 0 || turn->front_normal < 0;
+}
+
+// Straight riding at a capsize speed, where no other eigenvalue decides: the one that vanishes is
+// zero to the 1e-11 of the speed at which the library takes it for that speed.
+static bool is_neutral(const bike_turn *turn) {
+  const double rounding = 1e-9; // 1/s
+  return turn->mark == BIKE_TURN_STRAIGHT && fabs(turn->eps_max) <= rounding;
+}
+
+static const char *stability_of(const bike_turn *turn) {
+  if (is_neutral(turn)) return "neutral";
+  return turn->eps_max < 0 ? "yes" : "no";
+}
+
+// For reading: what is left of a zero by rounding is none.
+static double shown(double value) {
+  const double rounding = 1e-12; // deg, cm, 1/s: far below what matters, far above 1e-15
+  return fabs(value) < rounding ? 0 : value;
 }
 
 static int given_count(const bike_turn_def *def) {
@@ -26,12 +45,23 @@ static int main_count(const bike_turns *found) {
   return count;
 }
 
+// Whether riding straight at a capsize speed is among the answers.
+static bool meets_straight(const bike_turns *found) {
+  for (int i = 0; i < found->count; i++)
+    if (found->turns[i].mark == BIKE_TURN_STRAIGHT) return true;
+  return false;
+}
+
 // Why there is nothing, or what more there is; NULL: nothing to say.
 static const char *remark(const turn_answer *a) {
   if (a->found->straight)
     return "riding straight and upright, at whatever speed, answers the question too";
   if (given_count(a->def) < 2)
     return "one variable leaves whole branches: only their folds and ends are shown";
+  if (meets_straight(a->found))
+    return "a capsize speed: hands-free turns branch off riding straight here, and none is "
+           "distinct "
+           "from it";
   if (main_count(a->found) > 0) return NULL;
   return a->found->count > 0 ? "no such turn in the main family, from which straight riding is "
                                "reached by moving the rider or hands free"
@@ -98,6 +128,7 @@ static json_t *turn_json(const turn_answer *a, const bike_turn *t, double left) 
   json_object_set_new(object, "eigenvalues", term_json_matrix(values, 4, 2));
   json_object_set_new(object, "modes", mode_names(a->model, t));
   json_object_set_new(object, "lifted", json_boolean(has_lifted(t)));
+  json_object_set_new(object, "neutral", json_boolean(is_neutral(t)));
   json_object_set_new(object, "main_family", json_boolean(t->main_family));
   return object;
 }
@@ -148,20 +179,14 @@ static bool print_list(const char *title, const bike_turn *turns, int count, dou
                                t->speed,         100 * t->rider_offset,
                                t->radius,        t->eps_max};
     char text[6][32], friction[32], mark[64];
-    for (int k = 0; k < 6; k++) snprintf(text[k], sizeof text[k], "%.6g", numbers[k] + 0.0);
+    for (int k = 0; k < 6; k++) snprintf(text[k], sizeof text[k], "%.6g", shown(numbers[k]));
     snprintf(friction, sizeof friction, "%.2f", fmax(t->rear_friction, t->front_friction));
     describe_mark(mark, t);
-    const char *note = marks ? mark : "";
-    const char *cells[] = {text[0],
-                           text[1],
-                           text[2],
-                           text[3],
-                           text[4],
-                           text[5],
-                           t->eps_max < 0 ? "yes" : "no",
-                           has_lifted(t) ? "lifted" : friction,
+    const char *note = marks ? mark : "", *stable = stability_of(t);
+    const char *cells[] = {text[0], text[1], text[2], text[3],
+                           text[4], text[5], stable,  has_lifted(t) ? "lifted" : friction,
                            note};
-    term_table_add(table, t->eps_max < 0 ? TERM_GOOD : TERM_PLAIN, cells);
+    term_table_add(table, strcmp(stable, "yes") == 0 ? TERM_GOOD : TERM_PLAIN, cells);
   }
   printf("\n%s\n", title);
   bool printed = term_table_print(table, stdout);

@@ -145,6 +145,14 @@ double turn_curve_slope(const turn_curve *c, const turn_point *at, bike_turn_var
   }
 }
 
+double turn_curve_growth(const turn_curve *c, const turn_point *at, bike_turn_variable variable,
+                         double value) {
+  if (variable != BIKE_TURN_SPEED) return turn_curve_slope(c, at, variable);
+  // of v^2 sin(steer) = g z at a fixed offset, less value^2 sin(steer)
+  const double *y = at->y, *t = at->along;
+  return c->bicycle->model->gravity * t[Y_LAST] - value * value * cos(y[Y_STEER]) * t[Y_STEER];
+}
+
 bool turn_curve_within(const turn_curve *c, const double y[Y_SIZE]) {
   return fabs(y[Y_LEAN]) <= c->def->lean_limit && fabs(y[Y_STEER]) <= c->def->steer_limit;
 }

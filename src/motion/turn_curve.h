@@ -59,6 +59,10 @@ double turn_curve_beyond(const turn_curve *curve, const turn_point *at, bike_tur
                          double value);
 double turn_curve_slope(const turn_curve *curve, const turn_point *at, bike_turn_variable variable);
 
+// How fast the first of them grows along the curve.
+double turn_curve_growth(const turn_curve *curve, const turn_point *at, bike_turn_variable variable,
+                         double value);
+
 // Whether lean and steer lie within the limits.
 bool turn_curve_within(const turn_curve *curve, const double y[Y_SIZE]);
 

@@ -11,10 +11,23 @@ typedef struct event_question {
   event_function *function;
   bike_turn_variable variable;
   double value;
+  bool but_straight; // straight riding, at an end of the piece, is a zero and not asked for
 } event_question;
 
-static double ask(const event_question *q, const turn_curve *c, const turn_point *at) {
-  return q->function(c, at, q->variable, q->value);
+static double length_of(const turn_piece *p) {
+  double length = 0;
+  for (int j = 0; j < Y_SIZE; j++) length += p->from->along[j] * (p->to->y[j] - p->from->y[j]);
+  return length;
+}
+
+// Where straight riding is a zero it is divided out: what is left has its sign right beside it, and
+// only the zeros that branch off.
+static double ask(const event_question *q, const turn_piece *p, const turn_point *at,
+                  double reached) {
+  double value = q->function(p->curve, at, q->variable, q->value);
+  if (!q->but_straight) return value;
+  if (at == p->straight) return turn_curve_growth(p->curve, at, q->variable, q->value);
+  return value / (p->straight == p->from ? reached : reached - length_of(p));
 }
 
 static double beyond_value(const turn_curve *c, const turn_point *at, bike_turn_variable variable,
@@ -53,11 +66,10 @@ static bool point_at(turn_point *out, const turn_piece *p, double reached, doubl
 // The zero between two points at which the function differs in sign: regula falsi in the Illinois
 // form. It ends when the bracket is rounding, which takes some ten evaluations.
 static bool pin_down(turn_point *out, const turn_piece *p, const event_question *q) {
-  double low = 0, high = 0;
-  for (int j = 0; j < Y_SIZE; j++) high += p->from->along[j] * (p->to->y[j] - p->from->y[j]);
-  const double length = high, rounding = 1e-15;
+  const double length = length_of(p), rounding = 1e-15;
   const int most = 100; // bisection alone would need 50
-  double f_low = ask(q, p->curve, p->from), f_high = ask(q, p->curve, p->to);
+  double low = 0, high = length;
+  double f_low = ask(q, p, p->from, low), f_high = ask(q, p, p->to, high);
   int side = 0;
   for (int i = 0; i < most && high - low > rounding; i++) {
     double middle =
@@ -65,7 +77,7 @@ static bool pin_down(turn_point *out, const turn_piece *p, const event_question 
     if (!(middle > low && middle < high)) break;
     turn_point at;
     if (!point_at(&at, p, middle, length)) return false;
-    double f = ask(q, p->curve, &at);
+    double f = ask(q, p, &at, middle);
     *out = at;
     if (f == 0) break;
     bool right = changes(f_low, f);
@@ -84,17 +96,18 @@ static bool pin_down(turn_point *out, const turn_piece *p, const event_question 
 // True where the sign differs at the piece's ends; then `found` tells whether the zero was pinned.
 static bool event_between(turn_point *out, bool *found, const turn_piece *p,
                           event_question question) {
-  if (!changes(ask(&question, p->curve, p->from), ask(&question, p->curve, p->to))) return false;
-  *out = *p->from; // where the zero is at the very end
+  double first = ask(&question, p, p->from, 0), last = ask(&question, p, p->to, length_of(p));
+  if (!changes(first, last)) return false;
+  *out = fabs(first) <= fabs(last) ? *p->from : *p->to; // where the zero is at the very end
   *found = pin_down(out, p, &question);
   return true;
 }
 
-// The speed's slope changes its sign with that of the steer.
+// The speed's slope changes its sign with that of the steer, and vanishes at straight riding.
 static bool has_fold(const turn_piece *p, bike_turn_variable variable) {
   const double *a = p->from->y, *b = p->to->y;
   if (p->curve->at_speed ? variable == BIKE_TURN_SPEED : variable == BIKE_TURN_OFFSET) return false;
-  return variable != BIKE_TURN_SPEED || !changes(a[Y_STEER], b[Y_STEER]);
+  return variable != BIKE_TURN_SPEED || !(p->straight || changes(a[Y_STEER], b[Y_STEER]));
 }
 
 // A fold of v^2 sin(steer) as the function sees it: the slope before it, in the variable itself.
@@ -105,23 +118,20 @@ static bool rises(const turn_piece *p, bike_turn_variable variable) {
 static int fold(turn_event *out, const turn_piece *p, bike_turn_variable variable) {
   bool found;
   if (!has_fold(p, variable)) return 0;
-  if (!event_between(&out->at, &found, p, (event_question){slope, variable, 0})) return 0;
+  if (!event_between(&out->at, &found, p,
+                     (event_question){.function = slope, .variable = variable}))
+    return 0;
   out->mark = rises(p, variable) ? BIKE_TURN_LARGEST : BIKE_TURN_SMALLEST;
   out->fold = variable;
   return found ? 1 : -1;
 }
 
-// At a fixed offset the last coordinate vanishes with the speed, or with the steer where straight
-// riding is met.
+// At a fixed offset the last coordinate vanishes with the speed, and at straight riding.
 static int end_of_speed(turn_event *out, const turn_piece *p) {
-  if (p->curve->at_speed) return 0;
-  // straight within the rounding of the coordinates, carried through their equations
-  const double straight = 1e-9;
   bool found;
-  if (!event_between(&out->at, &found, p, (event_question){last_coordinate, BIKE_TURN_SPEED, 0}))
-    return 0;
-  bool met = fabs(out->at.y[Y_STEER]) <= straight && fabs(out->at.y[Y_LEAN]) <= straight;
-  out->mark = met ? BIKE_TURN_STRAIGHT : BIKE_TURN_STATIC;
+  if (p->curve->at_speed || p->straight) return 0;
+  if (!event_between(&out->at, &found, p, (event_question){.function = last_coordinate})) return 0;
+  out->mark = BIKE_TURN_STATIC;
   return found ? 1 : -1;
 }
 
@@ -136,15 +146,16 @@ int turn_piece_marks(turn_event out[PIECE_EVENTS], const turn_piece *p, const tu
 }
 
 int turn_piece_crossings(turn_point out[2], const turn_piece *p, bike_turn_variable variable,
-                         double value) {
+                         double value, bool but_straight) {
   turn_event turning;
-  int folds = fold(&turning, p, variable), count = 0;
+  event_question question = {beyond_value, variable, value, but_straight};
+  // divided, the function has another fold, if any: beside straight riding it has none
+  int folds = but_straight ? 0 : fold(&turning, p, variable), count = 0;
   if (folds < 0) return -1;
   turn_piece parts[2] = {*p, *p};
   if (folds > 0) parts[0].to = parts[1].from = &turning.at;
   for (int i = 0; i <= folds; i++) {
     bool found;
-    event_question question = {beyond_value, variable, value};
     if (!event_between(&out[count], &found, &parts[i], question)) continue;
     if (!found) return -1;
     count++;

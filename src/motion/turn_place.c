@@ -8,6 +8,7 @@
 #include "motion/turn_family.h"
 #include "motion/turn_search.h"
 #include "motion/turn_solution.h"
+#include "motion/turn_straight.h"
 
 typedef struct cubic {
   double c[4]; // lowest power first
@@ -108,18 +109,13 @@ static int add_offset(bike_turns *out, const turn_bicycle *bicycle, const bike_t
   return code ? code : turn_keep(out->turns, &out->count, &turn);
 }
 
-// Riding straight on: the forces of weight vanish at some offset.
+// Riding straight on, at whatever speed.
 static int straight_on(bike_turns *out, const turn_bicycle *bicycle, double lean, double limit) {
-  turn_forces at[2];
-  for (int k = 0; k < 2; k++) {
-    int code = turn_forces_at(&at[k], bicycle, lean, 0, k);
-    if (code) return code;
-  }
-  const double *a = at[0].fall, *b = at[1].fall, rounding = 1e-11; // as of solutions
-  double offset = -a[TURN_LEAN_ROW] / (b[TURN_LEAN_ROW] - a[TURN_LEAN_ROW]);
-  double left = a[TURN_STEER_ROW] + offset * (b[TURN_STEER_ROW] - a[TURN_STEER_ROW]);
-  out->straight = fabs(offset) <= limit && fabs(left) <= rounding;
-  return BIKE_OK;
+  bool rides;
+  double offset;
+  int code = turn_straight_offset(&rides, &offset, bicycle, lean);
+  out->straight = !code && rides && fabs(offset) <= limit;
+  return code;
 }
 
 int turn_search_place(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_def *def) {

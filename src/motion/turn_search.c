@@ -10,9 +10,7 @@
 #include "motion/turn_family.h"
 #include "motion/turn_seed.h"
 #include "motion/turn_solution.h"
-
-// Lean and steer of straight riding, within the rounding of Newton's method.
-static const double STRAIGHT = 1e-9;
+#include "motion/turn_straight.h"
 
 // An enumeration under way.
 typedef struct search {
@@ -20,6 +18,8 @@ typedef struct search {
   newton *corrector, *polisher; // of three and of two equations
   bike_turn_variable measured;  // given beside what the curve fixes; BIKE_TURN_VARIABLES: none
   turn_wanted wanted;           // folds to mark
+  turn_straight straight;       // riding, where the curve passes it
+  bool straight_answers;        // and it has what is measured
   turn_family family;           // of the branch being searched
   bike_turns *out;
 } search;
@@ -33,10 +33,6 @@ static turn_place place_on(const turn_curve *curve, const turn_point *at) {
                       .steer = at->y[Y_STEER],
                       .square = turn_curve_square(curve, at->y) / curve->bicycle->model->gravity,
                       .offset = turn_curve_offset(curve, at->y)};
-}
-
-static bool is_straight(const turn_place *at) {
-  return fabs(at->lean) <= STRAIGHT && fabs(at->steer) <= STRAIGHT;
 }
 
 static bool inside(const search *s, const turn_place *at) {
@@ -84,26 +80,23 @@ static int collect(search *s, bike_turn *list, int *count, const turn_place *nea
   return turn_keep(list, count, &turn);
 }
 
-// A point of the curve with the given value, improved. Where it is straight riding, and its speed
-// is not given, any speed would do.
+// What is given, into a place that has it but for rounding.
+static void give(turn_place *place, const search *s) {
+  const bike_turn_def *def = s->curve.def;
+  double speed = def->value[BIKE_TURN_SPEED];
+  if (def->given[BIKE_TURN_SPEED]) place->square = speed * speed / gravity(s);
+  if (def->given[BIKE_TURN_LEAN]) place->lean = def->value[BIKE_TURN_LEAN];
+  if (def->given[BIKE_TURN_STEER]) place->steer = def->value[BIKE_TURN_STEER];
+  if (def->given[BIKE_TURN_OFFSET]) place->offset = def->value[BIKE_TURN_OFFSET];
+}
+
+// A point of the curve with the given value, improved.
 static int add_solution(search *s, const turn_point *at) {
   const double reach = 1e-5; // guesses are right to 1e-10, or to its root beside a fold
-  const bike_turn_def *def = s->curve.def;
   turn_place place = place_on(&s->curve, at);
-  bool straight = is_straight(&place);
-  if (straight && !def->given[BIKE_TURN_SPEED]) {
-    s->out->straight = true;
-    return BIKE_OK;
-  }
-  if (straight) place.lean = place.steer = 0;
-  if (def->given[BIKE_TURN_SPEED]) {
-    double speed = def->value[BIKE_TURN_SPEED];
-    place.square = speed * speed / gravity(s);
-  }
-  if (def->given[BIKE_TURN_LEAN]) place.lean = def->value[BIKE_TURN_LEAN];
-  if (def->given[BIKE_TURN_STEER]) place.steer = def->value[BIKE_TURN_STEER];
-  if (def->given[BIKE_TURN_OFFSET]) place.offset = def->value[BIKE_TURN_OFFSET];
-  turn_place_polish(&place, &s->out->residual, s->curve.bicycle, s->polisher, def->given, reach);
+  give(&place, s);
+  turn_place_polish(&place, &s->out->residual, s->curve.bicycle, s->polisher, s->curve.def->given,
+                    reach);
   return collect(s, s->out->turns, &s->out->count, &place, NULL);
 }
 
@@ -118,33 +111,63 @@ static void stand_still(search *s, turn_place *place) {
 static int add_mark(search *s, const turn_event *event) {
   turn_place place = place_on(&s->curve, &event->at);
   if (event->mark == BIKE_TURN_STATIC) stand_still(s, &place);
-  if (event->mark == BIKE_TURN_STRAIGHT) {
-    // v^2/g = z/sin(steer) where both vanish
-    place.lean = place.steer = 0;
-    place.square = event->at.along[Y_LAST] / event->at.along[Y_STEER];
-  }
+  if (event->mark == BIKE_TURN_STRAIGHT && !s->curve.at_speed) place.square = s->straight.square;
   return collect(s, s->out->marks, &s->out->mark_count, &place, event);
 }
 
-static int search_piece(search *s, const turn_point *from, const turn_point *to) {
-  turn_piece piece = {&s->curve, s->corrector, from, to, &s->out->residual};
+// The branch passes straight riding: an answer, at the speed given or at whatever speed, and a mark
+// where hands-free turns branch off, if that is at the branch's speed.
+static int meet_straight(search *s) {
+  const turn_straight *straight = &s->straight;
+  turn_event met = {.at = straight->at, .mark = BIKE_TURN_STRAIGHT};
+  int code = BIKE_OK;
+  if (!s->curve.at_speed || straight->neutral) code = add_mark(s, &met);
+  if (code || !s->straight_answers) return code;
+  s->out->straight = !s->curve.def->given[BIKE_TURN_SPEED];
+  if (s->out->straight) return BIKE_OK;
+  turn_place place = place_on(&s->curve, &straight->at);
+  give(&place, s);
+  return collect(s, s->out->turns, &s->out->count, &place, straight->neutral ? &met : NULL);
+}
+
+// A piece that straight riding may end, and does not pass.
+static int search_piece(search *s, const turn_piece *piece) {
   turn_event events[PIECE_EVENTS];
-  int count = turn_piece_marks(events, &piece, s->wanted), code = BIKE_OK;
+  int count = turn_piece_marks(events, piece, s->wanted), code = BIKE_OK;
   if (count < 0) return BIKE_ERROR_NO_CONVERGENCE;
-  for (int i = 0; i < count && !code; i++) code = add_mark(s, &events[i]);
+  for (int i = 0; i < count && !code; i++)
+    if (turn_straight_apart(&s->straight, events[i].at.y)) code = add_mark(s, &events[i]);
   if (code || s->measured == BIKE_TURN_VARIABLES) return code;
 
   turn_point found[2];
-  count = turn_piece_crossings(found, &piece, s->measured, s->curve.def->value[s->measured]);
+  bool but_straight = piece->straight && s->straight_answers;
+  count = turn_piece_crossings(found, piece, s->measured, s->curve.def->value[s->measured],
+                               but_straight);
   if (count < 0) return BIKE_ERROR_NO_CONVERGENCE;
-  for (int i = 0; i < count && !code; i++) code = add_solution(s, &found[i]);
+  for (int i = 0; i < count && !code; i++)
+    if (!but_straight || turn_straight_apart(&s->straight, found[i].y))
+      code = add_solution(s, &found[i]);
   return code;
+}
+
+// From one traced point to the next: two pieces where straight riding lies between.
+static int search_step(search *s, const turn_point *from, const turn_point *to) {
+  turn_piece piece = {&s->curve, s->corrector, from, to, NULL, &s->out->residual};
+  double reached[2];
+  const double nothing = 1e-6; // rad, m: no length of a piece
+  if (!turn_straight_between(&s->straight, reached, from, to)) return search_piece(s, &piece);
+  int code = meet_straight(s);
+  piece.straight = piece.to = &s->straight.at;
+  if (!code && reached[0] > nothing) code = search_piece(s, &piece);
+  piece.from = &s->straight.at;
+  piece.to = to;
+  return !code && reached[1] > nothing ? search_piece(s, &piece) : code;
 }
 
 static int search_branch(search *s, const turn_branch *branch) {
   int code = BIKE_OK;
   for (size_t i = 1; i < branch->count && !code; i++)
-    code = search_piece(s, &branch->at[i - 1], &branch->at[i]);
+    code = search_step(s, &branch->at[i - 1], &branch->at[i]);
   return code;
 }
 
@@ -195,6 +218,10 @@ int turn_search(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_de
   s.corrector = newton_create(3);
   s.polisher = newton_create(2);
   turn_seeds seeds = {0};
+  turn_straight_find(&s.straight, &s.curve);
+  s.straight_answers =
+      s.measured != BIKE_TURN_VARIABLES &&
+      turn_straight_answers(&s.straight, &s.curve, s.measured, def->value[s.measured]);
   int code = s.corrector && s.polisher ? turn_seeds_find(&seeds, &s.curve) : BIKE_ERROR_MEMORY;
   if (!code) code = follow_all(&s, &seeds);
   turn_seeds_free(&seeds);

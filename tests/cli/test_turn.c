@@ -52,6 +52,44 @@ static void fast_turns_of_the_recumbent(void **unused) {
   }
 }
 
+// Nothing there is a turn of 1e-15 deg, and no sign of an eigenvalue of 1e-16 is told as stability.
+static void a_capsize_speed_is_neutral(void **unused) {
+  (void)unused;
+  json_t *stability = run_json("bicycle stability roadster --json");
+  char command[128];
+  snprintf(command, sizeof command, "bicycle turn roadster --speed %.17g --rider-offset 0",
+           run_number(stability, "capsize_speed"));
+  run_result text = run_command(command);
+  assert_int_equal(text.status, 0);
+  assert_non_null(strstr(text.out, "a capsize speed: hands-free turns branch off"));
+  assert_int_equal(run_occurrences(text.out, "inf            0  neutral"), 2); // turn and mark
+  assert_null(strstr(text.out, "e-"));
+  run_free(&text);
+  strcat(command, " --json");
+  json_t *turns = run_json(command);
+  assert_int_equal(json_array_size(json_object_get(turns, "solutions")), 1);
+  const json_t *one = solution(turns, 0);
+  assert_near(run_number(one, "lean"), 0, 0);
+  assert_near(run_number(one, "steer"), 0, 0);
+  assert_true(json_is_true(json_object_get(one, "neutral")));
+  assert_string_equal(json_string_value(json_object_get(one, "mark")), "meets straight riding");
+  assert_true(json_is_string(json_object_get(turns, "reason")));
+  json_decref(turns);
+  json_decref(stability);
+  // below its weave speed it is unstable whatever vanishes
+  turns = run_json("bicycle turn roadster_riderless --speed 4.574494793923497 --rider-offset 0 "
+                   "--json");
+  one = solution(turns, 0);
+  assert_string_equal(json_string_value(json_object_get(one, "mark")), "meets straight riding");
+  assert_true(json_is_false(json_object_get(one, "neutral")));
+  json_decref(turns);
+  // elsewhere riding straight is stable or not
+  turns = run_json("bicycle turn roadster --speed 6 --rider-offset 0 --json");
+  assert_true(json_is_false(json_object_get(solution(turns, 1), "neutral")));
+  assert_null(json_object_get(solution(turns, 1), "mark"));
+  json_decref(turns);
+}
+
 static void sae_is_the_literature(void **unused) {
   (void)unused;
   json_t *turns =
@@ -175,10 +213,15 @@ static int leave(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(three_fixed_points),     cmocka_unit_test(fast_turns_of_the_recumbent),
-      cmocka_unit_test(sae_is_the_literature),  cmocka_unit_test(no_solution_is_an_answer),
-      cmocka_unit_test(wrong_questions),        cmocka_unit_test(linear_about_a_turn),
-      cmocka_unit_test(linear_without_a_rider), cmocka_unit_test(help_starts_with_an_example),
+      cmocka_unit_test(three_fixed_points),
+      cmocka_unit_test(fast_turns_of_the_recumbent),
+      cmocka_unit_test(sae_is_the_literature),
+      cmocka_unit_test(no_solution_is_an_answer),
+      cmocka_unit_test(wrong_questions),
+      cmocka_unit_test(linear_about_a_turn),
+      cmocka_unit_test(a_capsize_speed_is_neutral),
+      cmocka_unit_test(linear_without_a_rider),
+      cmocka_unit_test(help_starts_with_an_example),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }

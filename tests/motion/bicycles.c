@@ -10,13 +10,20 @@ static bike_model model_of(const bike_bicycle *bicycle) {
   return model;
 }
 
-static bike_model shipped(const char *name) {
+bike_model shipped(const char *name) {
   bike_bicycle bicycle = read_shipped(name);
   return model_of(&bicycle);
 }
 
 bike_model roadster(void) {
   return shipped("roadster");
+}
+
+bike_model roadster_with_rider_at(double offset) {
+  bike_bicycle bicycle = read_shipped("roadster");
+  for (int i = 0; i < bicycle.part_count; i++)
+    if (bicycle.parts[i].rider) bicycle.parts[i].position[1] -= offset;
+  return model_of(&bicycle);
 }
 
 bike_model damped_roadster(double damping) {

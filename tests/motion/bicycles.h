@@ -7,6 +7,9 @@
 
 bike_model roadster(void);
 
+// With its rider moved to the right for good: a ride's own rider offset would need an input.
+bike_model roadster_with_rider_at(double offset);
+
 // With a viscous steering damper, N m s/rad.
 bike_model damped_roadster(double damping);
 
@@ -15,5 +18,8 @@ bike_model penny_farthing(void);
 
 // Meijaard et al. (2007): no rider that could sway.
 bike_model benchmark(void);
+
+// Any of the shipped ones, by name.
+bike_model shipped(const char *name);
 
 #endif

@@ -216,21 +216,11 @@ static bike_sample ride_from(const bike_model *model, const bike_turn *turn, dou
   return end;
 }
 
-// The bicycle with its rider moved for good: a ride's own rider offset would need an input.
-static bike_model moved_rider(double offset) {
-  bike_bicycle bicycle = read_shipped("roadster");
-  for (int i = 0; i < bicycle.part_count; i++)
-    if (bicycle.parts[i].rider) bicycle.parts[i].position[1] -= offset;
-  bike_model model;
-  assert_int_equal(bike_model_init(&model, &bicycle), BIKE_OK);
-  return model;
-}
-
 // Turns of the moved rider at offset zero are those of the offset; a stable one is kept for a
 // minute, an unstable one is left at the rate of eps_max.
 static void rides_confirm_turns(void **state) {
   (void)state;
-  bike_model model = roadster(), moved = moved_rider(0.01);
+  bike_model model = roadster(), moved = roadster_with_rider_at(0.01);
   bike_turn_def def = turn_def(BIKE_TURN_SPEED, 5.5, BIKE_TURN_OFFSET, 0.01);
   const bike_turns *by_offset = turns_of(&model, &def);
   def.value[BIKE_TURN_OFFSET] = 0;

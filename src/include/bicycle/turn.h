@@ -26,7 +26,8 @@ typedef enum bike_turn_mark {
   BIKE_TURN_LARGEST,  // fold: `fold` is largest here, and two solutions meet and end
   BIKE_TURN_SMALLEST, // fold: `fold` is smallest here
   BIKE_TURN_STATIC,   // the branch ends at speed zero
-  BIKE_TURN_STRAIGHT  // the branch meets straight riding: at a capsize speed
+  BIKE_TURN_STRAIGHT  // the branch meets straight riding: at a capsize speed. Also of a solution:
+                      // riding straight at that speed, see below
 } bike_turn_mark;
 
 typedef struct bike_turn {
@@ -88,6 +89,11 @@ BIKE_API bike_turn_def bike_default_turn_def(void);
 // and steer is found and traced; a closed one smaller than a mesh may be missed.
 // Lean and steer given: solved in closed form (a cubic in the offset); no branch, no marks.
 // Lean or steer alone is no question: BIKE_ERROR_ARGUMENT.
+//
+// At a capsize speed hands-free turns branch off riding straight, one to each side, at speeds below
+// it or above: three solutions meet. Within 1e-11 of that speed, where the turns would lean by less
+// than 1e-5 rad, riding straight is the only one of them returned, marked BIKE_TURN_STRAIGHT: one
+// of its eigenvalues is zero but for rounding, so that nothing decides between the three.
 //
 // Errors: ARGUMENT, NOT_FINITE, NO_RIDER (an offset other than zero, or one asked for by leaving it
 // out, without a rider), NO_CONVERGENCE with `residual`, MEMORY. No solution is count = 0, not an
