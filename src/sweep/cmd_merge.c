@@ -78,7 +78,8 @@ static void say(const sweep_merged *m, const arguments *args) {
     term_message("%ld records are contradictory; the first: %s", m->contradictory, m->conflict);
   if (m->repeated) term_message("%ld points were done twice, with the same result", m->repeated);
   if (m->damaged) term_message("%ld damaged lines were passed over", m->damaged);
-  if (m->failed) term_message("%ld of %ld points failed: see column 'error'", m->failed, m->points);
+  if (m->failed)
+    term_message("%ld of %ld points lack outputs: column 'error' says why", m->failed, m->points);
 }
 
 int cmd_merge(int argc, char **argv) {

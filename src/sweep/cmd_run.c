@@ -33,7 +33,8 @@ static const char documentation[] =
     "eps_max, turn_eps_max, outcome, time; draws and seed where axes are drawn; search: [LOW, "
     "HIGH], m/s; ride: {time, settled, start_speed: given | same_energy}; front: in_space | "
     "on_axis. Units are SI and radians.\n\n"
-    "Exit status: 0 done; 2 wrong usage or input; 3 every point failed; 130, 143 stopped by a "
+    "Exit status: 0 done; 2 wrong usage or input; 3 no point has all its outputs; 130, 143 stopped "
+    "by a "
     "signal.";
 
 enum { KEY_THREADS = TERM_KEY_FIRST, KEY_SHARD, KEY_FRESH, KEY_JSON };

@@ -41,7 +41,7 @@ static bool print_json(const sweep_run *run, const sweep_job *job, const char *l
 static void say(const sweep_run *run, const sweep_job *job, const char *log_path, const char *csv) {
   if (job->damaged) term_message("%s: %ld damaged lines were passed over", log_path, job->damaged);
   if (job->failed)
-    term_message("%ld of %ld points failed: see column 'error'", job->failed, job->done);
+    term_message("%ld of %ld points lack outputs: column 'error' says why", job->failed, job->done);
   if (job->done < job->tasks.own)
     term_message("stopped with %ld of %ld points done; the same command goes on from there",
                  job->done, job->tasks.own);
@@ -66,7 +66,7 @@ int sweep_conclude(const sweep_run *run, sweep_job *job, const char *log_path, d
   if (run->json && !print_json(run, job, log_path, csv, seconds, ranks))
     return term_fail_bike(BIKE_ERROR_MEMORY, "--json");
   if (!run->json)
-    printf("%s: %ld points, %ld failed\n", csv ? csv : log_path, job->done, job->failed);
+    printf("%s: %ld points, %ld with errors\n", csv ? csv : log_path, job->done, job->failed);
   if (!all) return sweep_interrupted() ? SIGNAL_BASE + sweep_interrupted() : TERM_INVALID;
   return job->done > 0 && job->failed == job->done ? TERM_INVALID : TERM_DONE;
 }

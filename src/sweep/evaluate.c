@@ -96,26 +96,35 @@ static int question_of(sweep_output output) {
   return output >= SWEEP_OUTCOME ? SWEEP_OUTCOME : (int)output;
 }
 
-static void fail(sweep_row *row, sweep_output output, int code) {
-  snprintf(row->error, sizeof row->error, "%s: %s", sweep_output_name(output),
-           bike_error_string(code));
+// Also with BIKE_OK: it did not.
+static void fail(sweep_row *row, int question, int code) {
+  for (int i = 0; i < SWEEP_OUTPUT_COUNT; i++)
+    if (question_of((sweep_output)i) == question) row->codes[i] = code;
 }
 
-// All answers but those of a ride.
-static void evaluate_point(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
-  unsigned asked = 0; // bit: a question
+static void begin_row(sweep_row *row, const sweep_point *point, long index) {
+  row->index = index;
   row->outcome = "";
   row->ranges[0] = '\0';
   memcpy(row->values, point->values, sizeof row->values);
   memcpy(row->error, point->error, sizeof row->error);
+  memset(row->codes, 0, sizeof row->codes);
   for (int i = 0; i < SWEEP_OUTPUT_COUNT; i++) row->numbers[i] = NAN;
-  for (int i = 0; i < spec->output_count && !row->error[0]; i++) {
+}
+
+// All answers but those of a ride. False where memory is short.
+static bool evaluate_point(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
+  unsigned asked = 0; // bit: a question
+  for (int i = 0; i < spec->output_count; i++) {
     const sweep_output output = spec->outputs[i];
-    if (asked >> question_of(output) & 1U) continue;
-    asked |= 1U << question_of(output);
+    const int question = question_of(output);
+    if (asked >> question & 1U) continue;
+    asked |= 1U << question;
     const int code = answer(row, output, point, spec);
-    if (code) fail(row, output, code);
+    if (code == BIKE_ERROR_MEMORY) return false;
+    if (code) fail(row, question, code);
   }
+  return true;
 }
 
 // The rides of one call, side by side in the lanes of an ensemble.
@@ -130,16 +139,14 @@ static void add_ride(rides *all, sweep_row *row, const sweep_point *point, const
   int code = spec->same_energy
                  ? bike_speed_of_equal_energy(&start.speed, &point->model, &start, start.speed)
                  : BIKE_OK;
-  if (code) {
-    fail(row, SWEEP_OUTCOME, code);
-    return;
-  }
+  fail(row, SWEEP_OUTCOME, code);
+  if (code) return;
   all->rows[all->count] = row;
   all->members[all->count++] = (bike_member){
       .model = &point->model, .start = start, .input = {.rider_offset = point->rider_offset}};
 }
 
-static void ride_all(rides *all, const sweep_spec *spec) {
+static bool ride_all(rides *all, const sweep_spec *spec) {
   bike_fate fates[SWEEP_MOST_ROWS];
   double times[SWEEP_MOST_ROWS];
   int codes[SWEEP_MOST_ROWS];
@@ -150,14 +157,14 @@ static void ride_all(rides *all, const sweep_spec *spec) {
   for (size_t i = 0; i < all->count; i++) {
     sweep_row *row = all->rows[i];
     int code = failed ? failed : codes[i];
+    if (code == BIKE_ERROR_MEMORY) return false;
     if (!code && fates[i] == BIKE_FATE_NO_START) code = BIKE_ERROR_GEOMETRY;
-    if (code) {
-      fail(row, SWEEP_OUTCOME, code);
-      continue;
-    }
+    fail(row, SWEEP_OUTCOME, code);
+    if (code) continue;
     row->outcome = outcome_of(fates[i]);
     row->numbers[SWEEP_TIME] = times[i];
   }
+  return true;
 }
 
 static bool asks_for_rides(const sweep_spec *spec) {
@@ -166,14 +173,16 @@ static bool asks_for_rides(const sweep_spec *spec) {
   return false;
 }
 
-void sweep_evaluate(sweep_row *rows, const sweep_spec *spec, long first, long count) {
+bool sweep_evaluate(sweep_row *rows, const sweep_spec *spec, long first, long count) {
   sweep_point points[SWEEP_MOST_ROWS];
   rides all = {0};
   for (long i = 0; i < count; i++) {
     sweep_point_at(&points[i], spec, first + i);
-    rows[i].index = first + i;
-    evaluate_point(&rows[i], &points[i], spec);
-    if (asks_for_rides(spec) && !rows[i].error[0]) add_ride(&all, &rows[i], &points[i], spec);
+    begin_row(&rows[i], &points[i], first + i);
+    if (points[i].code == BIKE_ERROR_MEMORY) return false;
+    if (points[i].code) continue;
+    if (!evaluate_point(&rows[i], &points[i], spec)) return false;
+    if (asks_for_rides(spec)) add_ride(&all, &rows[i], &points[i], spec);
   }
-  ride_all(&all, spec);
+  return ride_all(&all, spec);
 }

@@ -10,7 +10,7 @@
 // Finished points: neighbours, as records of the log.
 typedef struct sweep_batch {
   sweep_range range;
-  long failed; // of them
+  long failed; // of them: without all their outputs
   char *text;  //
   size_t size; //
 } sweep_batch;

@@ -19,8 +19,8 @@ char *sweep_log_header(const sweep_spec *spec) {
   size_t size;
   FILE *stream = open_memstream(&text, &size);
   if (!stream) return NULL;
-  fprintf(stream, "# bicycle-sweep log 1\n# version %s\n# spec %s\n# points %ld\n# columns ",
-          term_version(), spec->hash, spec->points);
+  fprintf(stream, "# bicycle-sweep log %d\n# version %s\n# spec %s\n# points %ld\n# columns ",
+          SWEEP_LOG_FORMAT, term_version(), spec->hash, spec->points);
   sweep_print_columns(stream, spec);
   fputc('\n', stream);
   if (fclose(stream) == 0) return text;
@@ -83,13 +83,15 @@ static int resume(const sweep_log *log, const char *header, sweep_record_visitor
   sweep_log_view view;
   sweep_record record;
   size_t place = 0;
+  char what[BIKE_MESSAGE_SIZE];
   int code = sweep_log_map(&view, log->path, error);
   if (code) return code;
   // Killed before its header was whole: nothing is lost.
   const bool begun = view.header_size > 0;
   if (!begun && strncmp(view.data, header, view.size) != 0)
-    code = bike_message(error, BIKE_ERROR_SYNTAX,
-                        "%s: is not a log of bicycle sweep: choose another -o", log->path);
+    code = bike_message(error, BIKE_ERROR_SYNTAX, "%s: %s: choose another -o%s", log->path,
+                        sweep_log_objection(what, &view),
+                        view.format ? ", or start over with --fresh" : "");
   if (!code && begun) code = compare_headers(&view, header, error);
   while (!code && begun && sweep_log_next(&view, &place, &record)) visit(&record, user);
   *damaged = view.damaged;

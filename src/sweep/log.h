@@ -9,7 +9,10 @@
 #include <bicycle/file.h>
 #include <sys/types.h>
 
-// What the header says: five lines, "# bicycle-sweep log 1", the program's version, the hash of the
+// What a record means. 1, before the first release: a point had all its outputs or none.
+#define SWEEP_LOG_FORMAT 2
+
+// What the header says: five lines, "# bicycle-sweep log 2", the program's version, the hash of the
 // spec, the number of points, the columns. Logs with the same header are parts of the same sweep.
 char *sweep_log_header(const sweep_spec *spec); // free it; NULL when out of memory
 
@@ -20,7 +23,8 @@ typedef struct sweep_log_view {
   ino_t file;          //
   const char *data;    // mapped
   size_t size;         //
-  size_t header_size;  // 0: no whole header
+  long format;         // that the first line tells; 0: none
+  size_t header_size;  // 0: no whole header of this format
   long points;         // of the header
   const char *columns; // of the header, up to the line feed
   long damaged;        // whole lines that are no records; counted while reading
@@ -34,6 +38,10 @@ void sweep_log_unmap(sweep_log_view *view);
 
 // Whether `path` leads to the very file of the log.
 bool sweep_log_is(const sweep_log_view *view, const char *path);
+
+// What is wrong with a log without a whole header: "is not a log of bicycle sweep", or another
+// format; `out` holds it.
+const char *sweep_log_objection(char out[BIKE_MESSAGE_SIZE], const sweep_log_view *view);
 
 // The next record; `place` starts at 0.
 bool sweep_log_next(sweep_log_view *view, size_t *place, sweep_record *out);

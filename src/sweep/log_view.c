@@ -43,13 +43,15 @@ static long line_length(const sweep_log_view *view, size_t place) {
 
 // Five lines that begin with their key; leaves header_size at 0 where one is missing or wrong.
 static void read_header(sweep_log_view *view) {
-  static const char *const keys[] = {"# bicycle-sweep log 1", "# version ", "# spec ", "# points ",
+  static const char *const keys[] = {"# bicycle-sweep log ", "# version ", "# spec ", "# points ",
                                      "# columns "};
   size_t place = 0;
   for (int i = 0; i < 5; i++) {
     const long length = line_length(view, place);
     const size_t key = strlen(keys[i]);
     if (length < (long)key || memcmp(view->data + place, keys[i], key) != 0) return;
+    if (i == 0) view->format = strtol(view->data + place + key, NULL, 10);
+    if (view->format != SWEEP_LOG_FORMAT) return;
     if (i == 3) view->points = strtol(view->data + place + key, NULL, 10);
     if (i == 4) view->columns = view->data + place + key;
     place += (size_t)length + 1;
@@ -75,6 +77,16 @@ void sweep_log_unmap(sweep_log_view *view) {
 bool sweep_log_is(const sweep_log_view *view, const char *path) {
   struct stat status;
   return stat(path, &status) == 0 && status.st_dev == view->device && status.st_ino == view->file;
+}
+
+const char *sweep_log_objection(char out[BIKE_MESSAGE_SIZE], const sweep_log_view *view) {
+  if (view->format && view->format != SWEEP_LOG_FORMAT)
+    snprintf(out, BIKE_MESSAGE_SIZE,
+             "is a log of format %ld, of another version of the program; this one has format %d",
+             view->format, SWEEP_LOG_FORMAT);
+  else
+    snprintf(out, BIKE_MESSAGE_SIZE, "is not a log of bicycle sweep");
+  return out;
 }
 
 bool sweep_log_next(sweep_log_view *view, size_t *place, sweep_record *out) {

@@ -18,8 +18,10 @@ typedef struct merge {
 
 static int check_header(const sweep_log_view *view, const sweep_log_view *first,
                         bike_file_error *error) {
+  char what[BIKE_MESSAGE_SIZE];
   if (view->header_size == 0)
-    return bike_message(error, BIKE_ERROR_SYNTAX, "%s: is not a log of bicycle sweep", view->path);
+    return bike_message(error, BIKE_ERROR_SYNTAX, "%s: %s", view->path,
+                        sweep_log_objection(what, view));
   if (view->header_size == first->header_size &&
       memcmp(view->data, first->data, view->header_size) == 0)
     return BIKE_OK;

@@ -11,7 +11,7 @@ enum { SWEEP_GAPS_SHOWN = 10, SWEEP_GAPS_SIZE = 512 };
 typedef struct sweep_merged {
   long points;                      // of the sweep
   long present;                     // with a record
-  long failed;                      // of those present
+  long failed;                      // of those present: without all their outputs
   long repeated;                    // records of a point that was there already, and the same
   long contradictory;               // the same point with another record
   long damaged;                     // lines passed over

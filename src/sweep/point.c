@@ -31,7 +31,8 @@ void sweep_values_at(double out[SWEEP_MOST_AXES], const sweep_spec *spec, long i
   }
 }
 
-static void refuse(sweep_point *out, const char *subject, const char *why) {
+static void refuse(sweep_point *out, int code, const char *subject, const char *why) {
+  out->code = code;
   snprintf(out->error, sizeof out->error, "%s%s%.*s", subject, *subject ? ": " : "",
            SWEEP_REASON_SIZE - 100, why);
 }
@@ -47,12 +48,12 @@ static bool make_bicycle(bike_bicycle *out, sweep_point *point, const sweep_spec
     value[count++] = point->values[i];
   }
   int code = bike_parameters_apply(out, spec->parameters, index, value, count, &error);
-  if (code) refuse(point, "", error.text[0] ? error.text : bike_error_string(code));
+  if (code) refuse(point, code, "", error.text[0] ? error.text : bike_error_string(code));
   for (int i = 0; !code && i < spec->axis_count; i++) {
     const sweep_axis *axis = &spec->axes[i];
     if (axis->target != SWEEP_PROPERTY) continue;
     code = bike_vary(out, out, (bike_variation)axis->index, point->values[i], spec->front);
-    if (code) refuse(point, axis->name, bike_error_string(code));
+    if (code) refuse(point, code, axis->name, bike_error_string(code));
   }
   return !code;
 }
@@ -93,5 +94,5 @@ void sweep_point_at(sweep_point *out, const sweep_spec *spec, long index) {
   set_start(out, spec);
   if (!make_bicycle(&bicycle, out, spec)) return;
   const int code = bike_model_init(&out->model, &bicycle);
-  if (code) refuse(out, "", bike_error_string(code));
+  if (code) refuse(out, code, "", bike_error_string(code));
 }

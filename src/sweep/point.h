@@ -15,7 +15,8 @@ typedef struct sweep_point {
   bike_model model;
   bike_state start;              // its speed as the spec says, 0 where it says none
   double rider_offset;           // m
-  char error[SWEEP_REASON_SIZE]; // why there is no such bicycle; empty: there is
+  int code;                      // BIKE_OK, or why there is no such bicycle
+  char error[SWEEP_REASON_SIZE]; // the same in words; empty: there is
 } sweep_point;
 
 // Point `index`, 0 <= index < spec->points: a function of the spec and the index alone.

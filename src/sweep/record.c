@@ -3,12 +3,17 @@
 
 #include "files/number.h"
 
+#include <bicycle/error.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
-enum { SUM_SIZE = 9, LARGEST_ROW = 16384 }; // ",xxxxxxxx"; 70 numbers and a reason: 3 KiB
+enum {
+  SUM_SIZE = 9,        // ",xxxxxxxx"
+  REASONS_SIZE = 1024, // of four questions at most, of less than 200 each
+  LARGEST_ROW = 16384  // 70 numbers, ranges and reasons: 4 KiB
+};
 
 // RFC 4180; a record is one line whatever a name or a reason holds.
 static void print_text(FILE *stream, const char *text) {
@@ -41,13 +46,42 @@ void sweep_print_columns(FILE *stream, const sweep_spec *spec) {
 
 static void print_output(FILE *stream, const sweep_row *row, sweep_output output) {
   fputc(',', stream);
-  if (row->error[0]) return;
   if (output == SWEEP_OUTCOME)
     fputs(row->outcome, stream);
   else if (output == SWEEP_STABLE_RANGES)
     fputs(row->ranges, stream);
   else
     print_number(stream, row->numbers[output]);
+}
+
+bool sweep_row_failed(const sweep_row *row, const sweep_spec *spec) {
+  bool failed = row->error[0] != '\0';
+  for (int i = 0; i < spec->output_count; i++) failed |= row->codes[spec->outputs[i]] != BIKE_OK;
+  return failed;
+}
+
+// Adds to a text that has room.
+static void add(char out[REASONS_SIZE], const char *before, const char *text) {
+  const size_t used = strlen(out);
+  snprintf(out + used, REASONS_SIZE - used, "%s%s", before, text);
+}
+
+// "NAME NAME: reason; NAME: another" of the outputs that failed.
+static void collect_reasons(char out[REASONS_SIZE], const sweep_row *row, const sweep_spec *spec) {
+  unsigned told = 0; // bit: an output of the spec
+  out[0] = '\0';
+  for (int i = 0; i < spec->output_count; i++) {
+    const int code = row->codes[spec->outputs[i]];
+    const char *before = out[0] ? "; " : "";
+    if (code == BIKE_OK || told >> i & 1U) continue;
+    for (int k = i; k < spec->output_count; k++) {
+      if (row->codes[spec->outputs[k]] != code) continue;
+      add(out, before, sweep_output_name(spec->outputs[k]));
+      told |= 1U << k;
+      before = " ";
+    }
+    add(out, ": ", bike_error_string(code));
+  }
 }
 
 static void print_row(FILE *stream, const sweep_row *row, const sweep_spec *spec) {
@@ -57,8 +91,10 @@ static void print_row(FILE *stream, const sweep_row *row, const sweep_spec *spec
     print_number(stream, row->values[i]);
   }
   for (int i = 0; i < spec->output_count; i++) print_output(stream, row, spec->outputs[i]);
+  char reasons[REASONS_SIZE];
+  collect_reasons(reasons, row, spec);
   fputc(',', stream);
-  print_text(stream, row->error);
+  print_text(stream, row->error[0] ? row->error : reasons);
 }
 
 static unsigned long sum_of(const char *text, size_t size) {

@@ -36,10 +36,10 @@ static bool write_records(sweep_batch *out, const worker *w, sweep_range range, 
   while (out->range.count < range.count && (!sweep_interrupted() || out->range.count == 0)) {
     const long left = range.count - out->range.count;
     const long count = left < SWEEP_MOST_ROWS ? left : SWEEP_MOST_ROWS;
-    w->evaluate(w->rows, w->spec, range.first + out->range.count, count);
+    if (!w->evaluate(w->rows, w->spec, range.first + out->range.count, count)) return false;
     for (long i = 0; i < count; i++) {
       if (!sweep_print_record(stream, &w->rows[i], w->spec)) return false;
-      out->failed += w->rows[i].error[0] != '\0';
+      out->failed += sweep_row_failed(&w->rows[i], w->spec);
     }
     out->range.count += count;
   }

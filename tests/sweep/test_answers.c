@@ -191,7 +191,7 @@ static void failures_are_told(void **state) {
                           "outputs: [weave_speed]\n");
   run_result result = run_command("bicycle sweep some.yml -o some --json");
   assert_int_equal(result.status, 0);
-  assert_non_null(strstr(result.err, "2 of 3 points failed"));
+  assert_non_null(strstr(result.err, "2 of 3 points lack outputs"));
   assert_non_null(strstr(result.out, "\"failed\": 2"));
   run_free(&result);
   table t = read_table("some.csv");
@@ -207,6 +207,56 @@ static void failures_are_told(void **state) {
   sweep_run(3, "bicycle sweep all.yml -o all");
   char *csv = sweep_read("all.csv");
   free(csv);
+}
+
+#define NOT_STRAIGHT                                                                               \
+  "the state asked for is not a stationary motion (riding straight is one only of a bicycle that " \
+  "is its own mirror image)"
+#define NO_GEOMETRY "no geometry: both wheels cannot touch the ground at this lean and steer"
+
+// A rider who sits beside cannot ride straight, and 1.57 rad is no start: each output for itself.
+static void a_point_keeps_what_succeeded(void **state) {
+  (void)state;
+  static const char *const columns[] = {"weave_speed", "outcome", "eps_max", "time",
+                                        "capsize_speed"};
+  static const struct {
+    const char *succeeded; // of the columns
+    const char *error;
+  } rows[] = {
+      {"yyyyy", ""},
+      {"ynyny", "outcome time: " NO_GEOMETRY},
+      {"nynyn", "weave_speed eps_max capsize_speed: " NOT_STRAIGHT},
+      {"nnnnn", "weave_speed eps_max capsize_speed: " NOT_STRAIGHT "; outcome time: " NO_GEOMETRY},
+  };
+  sweep_write("part.yml", "bicycle: roadster\nsweep: {parts.rider.position.left: [0, 0.01], "
+                          "speed: 5, lean: [0.1, 1.57], steer: 1.3}\n"
+                          "outputs: [weave_speed, outcome, eps_max, time, capsize_speed]\n");
+  for (int again = 0; again < 2; again++) { // the second counts what stands in the log
+    json_t *report = run_json("bicycle sweep part.yml -o part --json");
+    assert_near(run_number(report, "failed"), 3, 0);
+    assert_near(run_number(report, "resumed"), again ? 4 : 0, 0);
+    json_decref(report);
+  }
+  assert_int_equal(sweep_merged_count("part.log", "failed"), 3);
+  table t = read_table("part.csv");
+  for (int row = 0; row < 4; row++) {
+    for (int i = 0; i < 5; i++)
+      assert_int_equal(*cell(&t, row + 1, columns[i]) != '\0', rows[row].succeeded[i] == 'y');
+    assert_string_equal(cell(&t, row + 1, "error"), rows[row].error);
+  }
+  // none has all its outputs: 3
+  sweep_run(3, "sed 's/left: .0, /left: [/' part.yml > none.yml; bicycle sweep none.yml -o none");
+  // what one output says does not depend on the others
+  sweep_run(0, "sed 's/^outputs: .*/outputs: [time, outcome]/' part.yml > two.yml; "
+               "bicycle sweep two.yml -o two");
+  table two = read_table("two.csv");
+  for (int row = 1; row <= 4; row++) {
+    assert_string_equal(cell(&t, row, "outcome"), cell(&two, row, "outcome"));
+    assert_string_equal(cell(&t, row, "time"), cell(&two, row, "time"));
+  }
+  assert_string_equal(cell(&two, 4, "error"), "time outcome: " NO_GEOMETRY);
+  free(two.text);
+  free(t.text);
 }
 
 static void examples_run(void **state) {
@@ -234,6 +284,7 @@ int main(void) {
       cmocka_unit_test(properties),
       cmocka_unit_test(uncertainty_of_the_file),
       cmocka_unit_test(failures_are_told),
+      cmocka_unit_test(a_point_keeps_what_succeeded),
       cmocka_unit_test(examples_run),
       cmocka_unit_test(names_are_listed),
   };

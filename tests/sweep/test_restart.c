@@ -128,12 +128,23 @@ static void signals_leave_a_valid_log(void **state) {
 static void another_spec_is_refused(void **state) {
   (void)state;
   sweep_run(0, "cp whole.log kept.log; cp whole.csv kept.csv; sed 's/seed: 3/seed: 4/' rides.yml > "
-               "other.yml; sed 's/version .*/version 0.0.0/' whole.log > old.log");
+               "other.yml; sed 's/version .*/version 0.0.0/' whole.log > old.log; "
+               "sed '1s/2$/1/' whole.log > older.log; echo '# bicycle-sweep lag' > no.log");
   run_all_wrong(
       (const run_wrong[]){
           {"bicycle sweep other.yml -o kept", "kept.log: belongs to another spec"},
-          {"bicycle sweep rides.yml -o old", "old.log: was written by another version"}},
-      2);
+          {"bicycle sweep rides.yml -o old", "old.log: was written by another version"},
+          {"bicycle sweep rides.yml -o older",
+           "older.log: is a log of format 1, of another version "
+           "of the program; this one has format 2: choose "
+           "another -o, or start over with --fresh"},
+          {"bicycle sweep merge older.log -o older.csv", "older.log: is a log of format 1"},
+          {"bicycle sweep merge whole.log older.log -o older.csv", "older.log: is a log of format"},
+          {"bicycle sweep rides.yml -o no", "no.log: is not a log of bicycle sweep: choose"},
+          {"bicycle sweep merge no.log", "no.log: is not a log of bicycle sweep"}},
+      7);
+  sweep_run(0, "bicycle sweep rides.yml -o older --fresh");
+  assert_complete("older");
   sweep_assert_same("kept.log", "whole.log");
   sweep_assert_same("kept.csv", "whole.csv");
   // the bicycle counts too
