@@ -2,6 +2,7 @@
 #include "terminal/folder.h"
 
 #include "terminal/folder_place.h"
+#include "terminal/hold.h"
 #include "terminal/message.h"
 
 #include <bicycle/error.h>
@@ -103,21 +104,32 @@ static int write_file(const char *folder, const term_file *file) {
   return number;
 }
 
-static term_exit write_aside(const char *aside, const char *target, const file_list *list) {
-  int number = mkdir(aside, 0777) == 0 ? 0 : errno;
-  if (number) return fail(target, number);
-  for (int i = 0; i < list->count && !number; i++) number = write_file(aside, &list->files[i]);
+// 0 or errno: then nothing is left of it.
+static int write_aside(const char *aside, const char *target, const file_list *list) {
+  remove_folder(aside, list); // of a killed process with our number
+  if (mkdir(aside, 0777) != 0) return errno;
+  int number = 0;
+  for (int i = 0; i < list->count && !number; i++)
+    number = term_signal_waits() ? EINTR : write_file(aside, &list->files[i]);
   if (!number) number = term_place_take(aside, target, remove_folder, list);
-  if (!number) return TERM_DONE;
-  remove_folder(aside, list);
-  return fail(target, number);
+  if (number) remove_folder(aside, list);
+  return number;
+}
+
+// An end from outside comes after it, and before anything is said.
+static term_exit write_held(const char *aside, const char *target, const file_list *list) {
+  sigset_t before;
+  term_hold_signals(&before);
+  int number = write_aside(aside, target, list);
+  term_release_signals(&before);
+  return number ? fail(target, number) : TERM_DONE;
 }
 
 term_exit term_folder_write(const char *path, const term_file *files, int count) {
   char *target = term_place_of(path);
   char *aside = target ? term_place_aside(target, "tmp") : NULL;
   term_exit code = aside ? check(target, files, count) : term_fail_bike(BIKE_ERROR_MEMORY, path);
-  if (code == TERM_DONE) code = write_aside(aside, target, &(file_list){files, count});
+  if (code == TERM_DONE) code = write_held(aside, target, &(file_list){files, count});
   free(aside);
   free(target);
   return code;

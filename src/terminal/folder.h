@@ -18,7 +18,8 @@ typedef struct term_file {
 term_exit term_folder_check(const char *path, const term_file *files, int count);
 
 // The same, and writes it: the files are written into a folder beside it, which then takes its name
-// and its place. TERM_USAGE, and nothing has changed, where that fails.
+// and its place. TERM_USAGE, and nothing has changed, where that fails. A signal that would end the
+// program meanwhile waits until the folder is whole or gone.
 term_exit term_folder_write(const char *path, const term_file *files, int count);
 
 #endif
