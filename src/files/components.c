@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `parameterization: components`: the frame as builders measure it, and a list of parts.
 #include "components.h"
+#include "angle.h"
 #include "forms.h"
 
 #include <bicycle/error.h>
@@ -16,10 +17,9 @@ static const double HUB_TOLERANCE = 1e-6;
 
 static int read_head_angle(const bike_yaml *yaml, const bike_field *field, void *target) {
   const int code = bike_yaml_number(yaml, field, target);
-  const double angle = *(double *)target;
-  if (code || (angle > 0 && angle < M_PI)) return code;
-  return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER,
-                        "must be in radians, between 0 and pi (pi/2: upright)");
+  char what[BIKE_ANGLE_TEXT];
+  if (code || bike_angle_check(what, &bike_head_angle_range, *(double *)target)) return code;
+  return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%s", what);
 }
 
 static int read_measures(const bike_yaml *yaml, const bike_field *field, bike_description *d) {

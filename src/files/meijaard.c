@@ -3,6 +3,7 @@
 // (x forward, y right, z down) from the rear contact; ours (forward, left, up).
 #include "meijaard.h"
 
+#include "angle.h"
 #include "message.h"
 #include "tensor.h"
 
@@ -126,10 +127,9 @@ static int check_range(const reading *r) {
   for (size_t i = 0; i < sizeof not_negative / sizeof *not_negative; ++i)
     if (!(value[not_negative[i]] >= 0))
       return refuse(r, not_negative[i], BIKE_ERROR_PARAMETER, "must not be negative");
-  if (!(fabs(value[MEIJAARD_LAM]) < M_PI / 2))
-    return refuse(r, MEIJAARD_LAM, BIKE_ERROR_PARAMETER,
-                  "must be in radians, between -pi/2 and pi/2");
-  return BIKE_OK;
+  char what[BIKE_ANGLE_TEXT];
+  if (bike_angle_check(what, &bike_tilt_range, value[MEIJAARD_LAM])) return BIKE_OK;
+  return refuse(r, MEIJAARD_LAM, BIKE_ERROR_PARAMETER, what);
 }
 
 // A wheel turns: its tensor must be the same about all its diameters.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameters_build.h"
 
+#include "angle.h"
 #include "message.h"
 
 #include <bicycle/error.h>
@@ -36,9 +37,9 @@ static int check_measures(const bike_description *d, bike_file_error *error) {
   if (d->by_lengths) return BIKE_OK;
   if (!(m->wheelbase > 0))
     return bike_message(error, BIKE_ERROR_PARAMETER, "wheelbase must be positive");
-  if (!(m->head_angle > 0 && m->head_angle < M_PI))
-    return bike_message(error, BIKE_ERROR_PARAMETER, "head_angle must be between 0 and pi");
-  return BIKE_OK;
+  char what[BIKE_ANGLE_TEXT];
+  if (bike_angle_check(what, &bike_head_angle_range, m->head_angle)) return BIKE_OK;
+  return bike_message(error, BIKE_ERROR_PARAMETER, "head_angle %s", what);
 }
 
 static void place_wheel(bike_component *c, const bike_upright *upright) {

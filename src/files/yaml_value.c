@@ -2,6 +2,7 @@
 // Values of a document: numbers, texts, truth values and lists, each of exactly its kind.
 #include "yaml.h"
 
+#include "angle.h"
 #include "number.h"
 
 #include <bicycle/error.h>
@@ -72,8 +73,10 @@ int bike_yaml_number(const bike_yaml *yaml, const bike_field *field, void *targe
     return bike_yaml_fail(yaml, field, BIKE_ERROR_SYNTAX, "must be a number, not a quoted text");
   const char *wrong = bike_number_parse(target, text, length);
   if (!wrong) return BIKE_OK;
-  return bike_yaml_fail(yaml, field, BIKE_ERROR_SYNTAX, "'%.*s' %s",
-                        length < SHOWN ? (int)length : SHOWN, text, wrong);
+  char hint[BIKE_ANGLE_TEXT];
+  bike_angle_hint(hint, text, length);
+  return bike_yaml_fail(yaml, field, BIKE_ERROR_SYNTAX, "'%.*s' %s%s",
+                        length < SHOWN ? (int)length : SHOWN, text, wrong, hint);
 }
 
 int bike_yaml_positive(const bike_yaml *yaml, const bike_field *field, void *target) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spec_axis.h"
 
+#include "files/angle.h"
+
 #include <bicycle/error.h>
 #include <math.h>
 #include <stdlib.h>
@@ -203,6 +205,34 @@ static int count_streams(const sweep_spec *spec) {
   return streams;
 }
 
+// The angles that an axis must not leave; NULL: it has none.
+static const bike_angle_range *angles_of(const sweep_axis *axis) {
+  switch (axis->target) {
+  case SWEEP_LEAN:
+    return &bike_tilt_range;
+  case SWEEP_STEER:
+    return &bike_steer_range;
+  case SWEEP_PROPERTY:
+    return axis->index == BIKE_VARY_HEAD_ANGLE ? &bike_head_angle_range : NULL;
+  default: // numbers of the file are checked with it
+    return NULL;
+  }
+}
+
+// Degrees would be angles that no bicycle has. Draws of a normal law may have such by chance.
+static int check_angles(const sweep_axis *axis, const bike_yaml *yaml, const bike_field *field) {
+  const bike_angle_range *range = angles_of(axis);
+  const bool listed = axis->law == SWEEP_LIST;
+  const double ends[2] = {axis->a, axis->b}, *value = listed ? axis->list : ends;
+  const long count = listed ? axis->count : 2;
+  char what[BIKE_ANGLE_TEXT];
+  if (!range || axis->law == SWEEP_NORMAL) return BIKE_OK;
+  for (long i = 0; i < count; i++)
+    if (!bike_angle_check(what, range, value[i]))
+      return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%g %s", value[i], what);
+  return BIKE_OK;
+}
+
 int sweep_read_axis(sweep_spec *spec, const bike_yaml *yaml, const bike_field *field) {
   if (spec->axis_count == SWEEP_MOST_AXES)
     return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "more than %d axes", SWEEP_MOST_AXES);
@@ -211,6 +241,7 @@ int sweep_read_axis(sweep_spec *spec, const bike_yaml *yaml, const bike_field *f
   if (!code) code = find_target(&axis, spec, yaml, field);
   if (!code) strncpy(axis.name, field->key, sizeof axis.name - 1); // it was found: it fits
   if (!code) code = read_values(&axis, spec, yaml, field);
+  if (!code) code = check_angles(&axis, yaml, field);
   if (code) {
     free(axis.list);
     return code;

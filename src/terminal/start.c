@@ -4,10 +4,26 @@
 #include "terminal/data.h"
 
 #include <bicycle/error.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 
 enum { KEY_LEAN = TERM_KEY_FIRST, KEY_STEER, KEY_LEAN_RATE, KEY_STEER_RATE, KEY_SPEED };
+
+// Radians are asked for, and degrees meant: no bicycle leans like that. Any steer has a meaning.
+static double lean_of(const char *text) {
+  double lean = term_angle_of("--lean", text);
+  if (fabs(lean) > M_PI / 2)
+    term_usage("--lean: %s is beyond 90deg; degrees have the suffix deg", text);
+  return lean;
+}
+
+static double steer_of(const char *text) {
+  double steer = term_angle_of("--steer", text);
+  if (fabs(steer) > 2 * M_PI)
+    term_message("--steer: %s is more than a whole turn; degrees have the suffix deg", text);
+  return steer;
+}
 
 static error_t parse_start(int key, char *text, struct argp_state *argp_state) {
   term_start *start = argp_state->input;
@@ -16,10 +32,10 @@ static error_t parse_start(int key, char *text, struct argp_state *argp_state) {
     argp_state->child_inputs[0] = &start->file;
     return 0;
   case KEY_LEAN:
-    start->state.lean = term_angle_of("--lean", text);
+    start->state.lean = lean_of(text);
     return 0;
   case KEY_STEER:
-    start->state.steer = term_angle_of("--steer", text);
+    start->state.steer = steer_of(text);
     return 0;
   case KEY_LEAN_RATE:
     start->state.lean_rate = term_angle_of("--lean-rate", text);

@@ -40,6 +40,20 @@ static void state_has_every_key(void **unused) {
 
 // Static loads of the benchmark of Meijaard et al. (2007): 94 kg on a wheelbase of 1.02 m, from the
 // moments of its parts about the contact points, in exact arithmetic.
+// Any steer has a meaning, but of one beyond a turn another may have been meant.
+static void degrees_without_suffix_are_suspected(void **unused) {
+  (void)unused;
+  static const char suspicion[] = "--steer: 10 is more than a whole turn; degrees have the suffix";
+  run_result result = run_command("bicycle state roadster --speed 6 --steer 10");
+  assert_int_equal(result.status, 0);
+  assert_non_null(strstr(result.err, suspicion));
+  run_free(&result);
+  result = run_command("bicycle state roadster --speed 6 --steer 6.28");
+  assert_int_equal(result.status, 0);
+  assert_string_equal(result.err, "");
+  run_free(&result);
+}
+
 static void loads_of_the_benchmark(void **unused) {
   (void)unused;
   json_t *state = run_json("bicycle state benchmark --speed 0 --json");
@@ -362,6 +376,7 @@ static void help_starts_with_an_example(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(state_has_every_key),
+      cmocka_unit_test(degrees_without_suffix_are_suspected),
       cmocka_unit_test(loads_of_the_benchmark),
       cmocka_unit_test(sae_turns_what_is_left_positive),
       cmocka_unit_test(linear_matrices_of_the_benchmark),

@@ -66,6 +66,8 @@ static const run_wrong commands[] = {
     {"bicycle ride roadster --speed 6 --time 0 --sample 0.1 -o out.csv", "--time: 0"},
     {"bicycle ride roadster --speed 6 --time 1 --sample 2 -o out.csv", "--sample 2 is longer"},
     {RIDE "--lean 90deg", "no geometry"},
+    {RIDE "--lean 5.5", "--lean: 5.5 is beyond 90deg; degrees have the suffix deg"},
+    {RIDE "--lean -91deg", "--lean: -91deg is beyond 90deg"},
     {"bicycle ride roadster --speed 6 --time 1 --sample 0.1 --lean 90deg", "no geometry"},
     {RIDE "--method euler", "--method: 'euler'"},
     {RIDE "--rtol -1", "--rtol"},

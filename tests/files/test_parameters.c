@@ -130,14 +130,16 @@ static void impossible_values(void **state) {
     const char *says;
   } wrong[] = {
       {SAMPLE_VALUES, "mB", -1, BIKE_ERROR_PARAMETER, "mB: must be positive"},
-      {SAMPLE_VALUES, "lam", 2, BIKE_ERROR_PARAMETER, "lam: must be in radians"},
+      {SAMPLE_VALUES, "lam", 18, BIKE_ERROR_PARAMETER, "pi/2; 18 deg are 0.314159"},
+      {SAMPLE_VALUES, "lam", 90, BIKE_ERROR_PARAMETER, "lam: must be in radians"},
       {SAMPLE_VALUES, "w", NAN, BIKE_ERROR_NOT_FINITE, "w: must be finite"},
       {SAMPLE_VALUES, "IBxz", 90, BIKE_ERROR_PARAMETER, "part 'B': inertia must be positive"},
       {SAMPLE_COMPONENTS, "parts.rider.mass", 0, BIKE_ERROR_PARAMETER,
        "part 'rider': mass must be positive"},
       {SAMPLE_COMPONENTS, "parts.bar.inertia.steering", -1, BIKE_ERROR_PARAMETER,
        "part 'bar': inertia must not be negative"},
-      {SAMPLE_COMPONENTS, "geometry.head_angle", 4, BIKE_ERROR_PARAMETER, "head_angle must be"},
+      {SAMPLE_COMPONENTS, "geometry.head_angle", 4, BIKE_ERROR_PARAMETER,
+       "upright); 4 deg are 0.0698132"},
       {SAMPLE_COMPONENTS, "geometry.wheelbase", -1, BIKE_ERROR_PARAMETER, "wheelbase must be"},
       {SAMPLE_COMPONENTS, "geometry.front_radius", -0.3, BIKE_ERROR_PARAMETER, "radius"},
       {SAMPLE_LENGTHS, "geometry.L_f", -2, BIKE_ERROR_IMPOSSIBLE, "cannot stand"},
@@ -153,6 +155,9 @@ static void impossible_values(void **state) {
     const int code = bike_parameters_apply(&bicycle, p, &index, &wrong[i].value, 1, &error);
     if (code != wrong[i].code || !strstr(error.text, wrong[i].says) || error.text[0] == ':')
       fail_msg("%s: code %d, '%s'", wrong[i].name, code, error.text);
+    // degrees are spoken of where they would be right
+    assert_int_equal(strstr(error.text, " deg are ") != NULL,
+                     strstr(wrong[i].says, " deg are ") != NULL);
     assert_memory_equal(&bicycle, &untouched, sizeof bicycle);
     bike_parameters_free(p);
   }

@@ -57,6 +57,17 @@ static const edit edits[] = {
     {"start_speed: given", "start_speed: best", "11:33: start_speed: must be given or same_energy"},
     {"front: on_axis", "front: loose", "12:1: front: must be in_space or on_axis"},
     {"ride: {", "ride: 3 #{", "11:1: ride: must hold"},
+    // Angles are in radians.
+    {"speed: [4, 5]", "lean: [0.1, 10]",
+     "5:3: lean: 10 must be in radians, between -pi/2 and pi/2; 10 deg are 0.174533"},
+    {"speed: [4, 5]", "lean: {from: -10, to: 0.1, count: 3}",
+     "5:3: lean: -10 must be in radians, between -pi/2 and pi/2; -10 deg are -0.174533"},
+    {"speed: [4, 5]", "steer: {uniform: [0, 45]}",
+     "5:3: steer: 45 must be in radians, between -pi and pi; 45 deg are 0.785398"},
+    {"speed: [4, 5]", "property.head_angle: 68",
+     "5:3: property.head_angle: 68 must be in radians, between 0 and pi"},
+    {"speed: [4, 5]", "lean: 5deg",
+     "5:3: lean: '5deg' is not a number: angles are in radians, 5 deg are 0.0872665"},
     // Axes.
     {"  speed: [4, 5]", "  speed: [4, nan]", "5:14: speed: 'nan' is not finite"},
     {"  speed: [4, 5]", "  speed: nan", "5:3: speed: 'nan' is not finite"},
