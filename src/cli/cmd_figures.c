@@ -175,8 +175,7 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
     return BIKE_OK;
   }
   int code = turn_map_make(&map, model, &args->speeds, &args->leans, args->threads, progress);
-  if (!code && !figure_add_maps(set, &map, term_left_sign(args->show.convention)))
-    code = BIKE_ERROR_MEMORY;
+  if (!code && !figure_add_maps(set, &map)) code = BIKE_ERROR_MEMORY;
   turn_map_free(&map);
   return code;
 }
@@ -191,8 +190,8 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
 
 static int add_figure_3(figure_set *set, const arguments *args, term_progress *progress) {
   range_figure wanted = {
-      .words = {"fig3", "stable range against the wheels\u2019 inertia",
-                "Figure 3. Self-stability region (shaded) of upright riding as a function of the "
+      .words = {"fig3", "3", "stable range against the wheels\u2019 inertia",
+                "Self-stability region (shaded) of upright riding as a function of the "
                 "moment of inertia of both wheels; heavy dashed: limits if the rear wheel keeps "
                 "its own. Held fixed: " HELD_INERTIA ". Arrows: the bicycle as it is.",
                 HELD_INERTIA},
@@ -219,8 +218,8 @@ static int add_figure_3(figure_set *set, const arguments *args, term_progress *p
 
 static int add_figure_4(figure_set *set, const arguments *args, term_progress *progress) {
   range_figure wanted = {
-      .words = {"fig4", "stable range against the trail",
-                "Figure 4. Self-stability region (shaded) of upright riding as a function of the "
+      .words = {"fig4", "4", "stable range against the trail",
+                "Self-stability region (shaded) of upright riding as a function of the "
                 "trail. Held fixed: " HELD_TRAIL ". Arrows: the bicycle as it is.",
                 HELD_TRAIL},
       .family_column = "front_on_axis",
@@ -252,7 +251,7 @@ int cmd_figures(int argc, char **argv) {
   bike_model model;
   term_exit code = term_load_bicycle(&bicycle, &model, args.file);
   if (code != TERM_DONE) return code;
-  figure_set set = {.bicycle = &bicycle};
+  figure_set set = {.bicycle = &bicycle, .convention = args.show.convention};
   term_progress progress = {0};
   int error = choose_axes(&args, &model);
   if (!error) error = add_figure_2(&set, &model, &args, &progress);

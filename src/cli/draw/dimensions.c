@@ -72,6 +72,11 @@ static void offer_places(draw_waiting *label, draw_point a, draw_point b, draw_p
   }
 }
 
+// A sign as long as the digits are wide, as in print.
+static const char *sign_of(double value) {
+  return value < 0 ? "\u2212" : "";
+}
+
 void draw_dimension(draw_canvas *canvas, draw_labels *labels, draw_point a, draw_point b,
                     draw_point normal, double level, const char *symbol, const char *subscript,
                     double value) {
@@ -84,7 +89,8 @@ void draw_dimension(draw_canvas *canvas, draw_labels *labels, draw_point a, draw
   helper(canvas, a, end_a);
   helper(canvas, b, end_b);
   arrows(canvas, end_a, end_b, along, wide);
-  draw_waiting *label = draw_new_label(labels, symbol, subscript, "= %.4g m", value);
+  draw_waiting *label =
+      draw_new_label(labels, symbol, subscript, "= %s%.4g m", sign_of(value), fabs(value));
   offer_places(label, end_a, end_b, along, normal, wide);
 }
 
@@ -96,6 +102,11 @@ void draw_radius(draw_canvas *canvas, draw_labels *labels, draw_point centre, dr
   draw_waiting *label = draw_new_label(labels, "R", subscript, "= %.4g m", value);
   offer_places(label, centre, rim, direction, turned(direction), true);
   draw_offer(label, rim, direction, text_gap);
+  // beside the tip, where a small wheel has no room within
+  const double tyre = 12; // pixels
+  draw_point tip = draw_along(rim, direction, tyre);
+  draw_offer(label, tip, turned(direction), text_gap);
+  draw_offer(label, tip, reversed(turned(direction)), text_gap);
 }
 
 void draw_tilt(draw_canvas *canvas, draw_labels *labels, draw_point vertex, draw_point axis,
@@ -107,7 +118,8 @@ void draw_tilt(draw_canvas *canvas, draw_labels *labels, draw_point vertex, draw
              on_upright = draw_along(vertex, up, radius);
   bool back = axis.x < 0; // leans back: the axis is to the left of the vertical
   draw_arc(canvas, "dimension", vertex, back ? on_axis : on_upright, back ? on_upright : on_axis);
-  draw_waiting *label = draw_new_label(labels, "β", "", "= %.4g°", value * (180 / M_PI));
+  draw_waiting *label =
+      draw_new_label(labels, "β", "", "= %s%.4g°", sign_of(value), fabs(value) * (180 / M_PI));
   draw_offer(label, on_upright, (draw_point){1, 0}, 8);
   draw_offer(label, on_axis, (draw_point){-1, 0}, 8);
   draw_offer(label, draw_along(vertex, up, arm), up, 8);

@@ -56,7 +56,7 @@ static void add_key(plot *p, const basin_map *map) {
   for (int k = 0; k < map->nx * map->ny; k++) occurs[map->fates[k]] = true;
   for (int f = 0; f < BIKE_FATES; f++)
     if (occurs[f]) entries[count++] = (plot_entry){true, PLOT_THIN, fills[f], words[f]};
-  plot_key(p, entries, count);
+  plot_key_below(p, entries, count); // no corner is free
 }
 
 static bool draw(plot *p, const basin_map *map, double left) {

@@ -17,6 +17,7 @@ typedef struct panel {
   level_set contours;
   bool stable;   // the region eps_max < 0 is shaded
   double factor; // from SI to the unit of the contours
+  bool turns_with_convention;
 } panel;
 
 static const double steers[] = {1, 2, 5, 10, 15, 20, 30, 40, 60, 80};
@@ -71,28 +72,77 @@ static bool open_plot(plot *p, const turn_map *map) {
   return plot_open(p, &x, &y);
 }
 
-// Shading and contours; *left_out: whether contours were thinned out.
+// Where the motion jumps to another one, at a speed: halfway between the nodes. NaN: nowhere.
+static double tear_at(const turn_map *map, const double *leans, int i) {
+  int first = -1, last = -1;
+  for (int j = 0; j + 1 < map->ny; j++) {
+    if (!map->torn[j * map->nx + i]) continue;
+    if (first < 0) first = j;
+    last = j;
+  }
+  return first < 0 ? NAN : 0.5 * (leans[first] + leans[last + 1]);
+}
+
+// Contours end there: a dotted line says that it is not by mistake. *torn: whether it is anywhere.
+static bool draw_tear(plot *p, const turn_map *map, const double *leans, bool *torn) {
+  plot_point *points = calloc((size_t)map->nx, sizeof *points);
+  if (!points) return false;
+  int count = 0;
+  for (int i = 0; i < map->nx; i++) {
+    double lean = i + 1 < map->nx ? tear_at(map, leans, i) : NAN;
+    if (!isnan(lean)) {
+      points[count++] = (plot_point){0.5 * (map->speed[i] + map->speed[i + 1]), lean};
+      continue;
+    }
+    plot_line(p, PLOT_DOTTED, points, count);
+    *torn |= count > 1;
+    count = 0;
+  }
+  free(points);
+  return true;
+}
+
+// What the captions of some panels add.
+typedef struct remarks {
+  bool torn, left_out;
+} remarks;
+
+// Shading and contours.
 static bool draw_panel(plot *p, const turn_map *map, const panel *what, const double *leans,
-                       const double *shown, bool *left_out) {
+                       const double *shown, remarks *found) {
   contour_grid stable = {map->nx, map->ny, map->speed, leans, map->eps, map->torn};
   contour_grid grid = {map->nx, map->ny, map->speed, leans, shown, map->torn};
   if (what->stable) contour_below(&stable, 0, fill_piece, p);
-  return level_lines_draw(p, &what->contours, &grid, left_out);
+  return draw_tear(p, map, leans, &found->torn) &&
+         level_lines_draw(p, &what->contours, &grid, &found->left_out);
 }
 
-static bool add_panel(figure_set *set, const turn_map *map, const panel *what, const double *values,
-                      double left) {
+static void make_caption(char out[FIGURE_CAPTION], const figure_set *set, const panel *what,
+                         const remarks *found) {
+  char signs[80] = "";
+  if (what->turns_with_convention)
+    snprintf(signs, sizeof signs, " Lean is positive to the right, steer to the %s.",
+             figure_positive_steer(set));
+  snprintf(out, FIGURE_CAPTION, "%s%s%s%s", what->words.caption, signs,
+           found->torn ? " Dotted: across it the steering angle jumps." : "",
+           found->left_out ? " Where contours would run into each other, only some are drawn."
+                           : "");
+}
+
+static bool add_panel(figure_set *set, const turn_map *map, const panel *what,
+                      const double *values) {
   plot p;
-  bool left_out = false, drawn = open_plot(&p, map);
+  remarks found = {false, false};
+  const double left = what->turns_with_convention ? term_left_sign(set->convention) : 1;
+  bool drawn = open_plot(&p, map);
   double *leans = calloc((size_t)map->ny, sizeof *leans);
   double *shown = scaled(map, values, left * what->factor);
   if (drawn && leans && shown) {
     for (int j = 0; j < map->ny; j++) leans[j] = map->lean[j] * DEGREES;
-    drawn = draw_panel(&p, map, what, leans, shown, &left_out);
-    char caption[512];
+    drawn = draw_panel(&p, map, what, leans, shown, &found);
+    char caption[FIGURE_CAPTION];
     figure_words words = what->words;
-    snprintf(caption, sizeof caption, "%s%s", words.caption,
-             left_out ? " Where contours would run into each other, only some are drawn." : "");
+    make_caption(caption, set, what, &found);
     words.caption = caption;
     FILE *csv = drawn ? figure_add(set, &words, &p) : NULL;
     if (csv) write_table(csv, map, what, values, left);
@@ -109,45 +159,49 @@ static bool add_panel(figure_set *set, const turn_map *map, const panel *what, c
 static const char held[] = "every parameter of the bicycle; the steer torque is zero and the "
                            "rider sits where the stationary motion needs him";
 
-bool figure_add_maps(figure_set *set, const turn_map *map, double left) {
+bool figure_add_maps(figure_set *set, const turn_map *map) {
   static const panel panels[] = {
-      {{"fig2a", "steering angle of stationary motion",
-        "Figure 2(a). Steering angle {\u03c6} (deg) of stationary circular motion, hands off, as a "
+      {{"fig2a", "2(a)", "steering angle of stationary motion",
+        "Steering angle {\u03c6} (deg) of stationary circular motion, hands off, as a "
         "function of speed and lean; dashed: negative. Shaded: self-stable.",
         held},
        "steer",
        {steers, COUNT(steers), true, false, false, false},
        true,
-       57.29577951308232},
-      {{"fig2b", "rider\u2019s lateral displacement of stationary motion",
-        "Figure 2(b). Lateral displacement {w} (cm) of the rider, positive to the side of the "
+       57.29577951308232,
+       true},
+      {{"fig2b", "2(b)", "rider\u2019s lateral displacement of stationary motion",
+        "Lateral displacement {w} (cm) of the rider, positive to the side of the "
         "lean, that stationary motion needs, hands off; heavy: zero, dashed: negative. Shaded: "
         "self-stable.",
         held},
        "rider_offset",
        {offsets, COUNT(offsets), true, true, false, false},
        true,
-       100},
-      {{"fig2c", "largest eigenvalue of stationary motion",
-        "Figure 2(c). Largest real part of the eigenvalues {\u03b5}\u2098\u2090\u2093 (1/s) of "
+       100,
+       false},
+      {{"fig2c", "2(c)", "largest eigenvalue of stationary motion",
+        "Largest real part of the eigenvalues {\u03b5}\u2098\u2090\u2093 (1/s) of "
         "stationary motion at constant energy; heavy: zero, dashed: negative. Shaded: self-stable. "
         "1/{\u03b5}\u2098\u2090\u2093 is the rider\u2019s reaction time, figure 2(d).",
         held},
        "eps_max",
        {growths, COUNT(growths), true, true, true, false},
        true,
-       1},
-      {{"fig2d", "reaction time of the rider",
-        "Figure 2(d). Time 1/{\u03b5}\u2098\u2090\u2093 (s) within which the rider has to react "
+       1,
+       false},
+      {{"fig2d", "2(d)", "reaction time of the rider",
+        "Time 1/{\u03b5}\u2098\u2090\u2093 (s) within which the rider has to react "
         "to a disturbance of stationary motion. Shaded: self-stable, no reaction needed.",
         held},
        "reaction_time",
        {times, COUNT(times), false, false, true, true},
        true,
-       1},
+       1,
+       false},
   };
   const double *const values[] = {map->steer, map->rider_offset, map->eps, map->eps};
   for (int i = 0; i < COUNT(panels); i++)
-    if (!add_panel(set, map, &panels[i], values[i], i == 0 ? left : 1)) return false;
+    if (!add_panel(set, map, &panels[i], values[i])) return false;
   return true;
 }

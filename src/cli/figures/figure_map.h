@@ -7,7 +7,7 @@
 #include "map.h"
 
 // Adds fig2a (steer), fig2b (rider offset), fig2c (largest eigenvalue) and fig2d (reaction time).
-// `left` is the factor on what is left positive in ISO. False when out of memory.
-bool figure_add_maps(figure_set *set, const turn_map *map, double left);
+// False when out of memory.
+bool figure_add_maps(figure_set *set, const turn_map *map);
 
 #endif

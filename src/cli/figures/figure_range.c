@@ -34,6 +34,7 @@ static void draw_edge(plot *p, const strip *s, int end, double fastest, plot_sty
     plot_line(p, style, points, count);
     count = 0;
   }
+  if (!points) p->obstacles.lost = true;
   free(points);
 }
 
@@ -44,7 +45,10 @@ static void fill_strip(plot *p, const strip *s) {
     points[i] = edge_point(s, s->first + i, 0);
     points[2 * count - 1 - i] = edge_point(s, s->first + i, 1);
   }
-  if (points) plot_area(p, PLOT_LIGHT, points, 2 * count);
+  if (points)
+    plot_area(p, PLOT_LIGHT, points, 2 * count);
+  else
+    p->obstacles.lost = true;
   free(points);
 }
 
@@ -82,14 +86,26 @@ static void draw_curves(plot *p, const range_figure *what, const range_curve cur
   }
 }
 
-static void draw_key(plot *p, const range_figure *what) {
+static bool is_never_stable(const range_curve *curve) {
+  for (int i = 0; i < curve->count; i++)
+    if (curve->samples[i].count > 0) return false;
+  return true;
+}
+
+// What is drawn, and nothing else.
+static void draw_key(plot *p, const range_figure *what, const range_curve curves[2]) {
+  static const plot_style styles[2] = {PLOT_HEAVY, PLOT_HEAVY_DASHED};
   char limits[2][64];
-  for (int k = 0; k < 2; k++)
+  plot_entry key[3];
+  int count = 0;
+  if (!is_never_stable(&curves[0]))
+    key[count++] = (plot_entry){.is_area = true, .fill = PLOT_LIGHT, .text = "self-stable"};
+  for (int k = 0; k < 2; k++) {
+    if (is_never_stable(&curves[k])) continue;
     snprintf(limits[k], sizeof limits[k], "limits, %s", what->families[k].label);
-  const plot_entry key[] = {{true, PLOT_THIN, PLOT_LIGHT, "self-stable"},
-                            {false, PLOT_HEAVY, PLOT_LIGHT, limits[0]},
-                            {false, PLOT_HEAVY_DASHED, PLOT_LIGHT, limits[1]}};
-  plot_key(p, key, 3);
+    key[count++] = (plot_entry){.style = styles[k], .text = limits[k]};
+  }
+  if (count > 0) plot_key(p, key, count);
 }
 
 // The bicycle as it is: arrows to its value and its limits.
@@ -154,16 +170,10 @@ static double axis_end(const range_figure *what, const range_curve curves[2]) {
   return most > 0 ? fmin(what->fastest, ceil(1.4 * most)) : what->fastest;
 }
 
-static bool is_never_stable(const range_curve *curve) {
-  for (int i = 0; i < curve->count; i++)
-    if (curve->samples[i].count > 0) return false;
-  return true;
-}
-
 // The figure with its table. False when out of memory.
 static bool finish(figure_set *set, const range_figure *what, const range_curve curves[2],
                    plot *p) {
-  char caption[640];
+  char caption[FIGURE_CAPTION];
   figure_words words = what->words;
   int length = snprintf(caption, sizeof caption, "%s", words.caption);
   for (int k = 0; k < 2; k++)
@@ -186,7 +196,7 @@ int figure_add_range(figure_set *set, const range_figure *what, term_progress *p
   if (!code) {
     draw_curves(&p, what, curves);
     draw_present(&p, what, set->bicycle);
-    draw_key(&p, what);
+    draw_key(&p, what, curves);
     if (!finish(set, what, curves, &p)) code = BIKE_ERROR_MEMORY;
   }
   plot_close(&p);

@@ -18,9 +18,12 @@ FILE *figure_add(figure_set *set, const figure_words *words, plot *p) {
   figure *f = &set->figures[set->count];
   *f = (figure){.name = words->name, .held = words->held, .x = p->x, .y = p->y};
   snprintf(f->title, sizeof f->title, "%s: %s", set->bicycle->name, words->title);
+  char caption[FIGURE_CAPTION + BIKE_NAME_SIZE];
+  snprintf(caption, sizeof caption, "Figure %s, %s. %s", words->number, set->bicycle->name,
+           words->caption);
   FILE *svg = open_memstream(&f->svg, &f->svg_size);
   if (!svg) return NULL;
-  bool drawn = plot_write(p, words->name, f->title, words->caption, svg);
+  bool drawn = plot_write(p, words->name, f->title, caption, svg);
   set->count++; // from here on freed with the set
   if (fclose(svg) != 0 || !drawn) return NULL;
   return open_memstream(&f->csv, &f->csv_size);
@@ -32,6 +35,10 @@ void figure_set_free(figure_set *set) {
     free(set->figures[i].csv);
   }
   set->count = 0;
+}
+
+const char *figure_positive_steer(const figure_set *set) {
+  return term_left_sign(set->convention) > 0 ? "left" : "right";
 }
 
 typedef void writer(FILE *stream, const void *what);
@@ -75,9 +82,13 @@ static void write_index(FILE *out, const void *what) {
   fputs("</h1>\n<p>Figures 2 to 4 of Franke, Suhr and Riess, \u201cAn advanced model of bicycle "
         "dynamics\u201d, Eur. J. Phys. 11 (1990) 116\u2013121, calculated anew for this bicycle "
         "with the corrected equations. The paper prints no table of parameters; those used here "
-        "are the bicycle file\u2019s. Lean is positive to the right, steer to the left (ISO 8855). "
-        "Tables are in SI units and radians.</p>\n",
+        "are the bicycle file\u2019s. ",
         out);
+  fprintf(out,
+          "Lean is positive to the right, steer to the %s (%s). Tables are in SI units and "
+          "radians.</p>\n",
+          figure_positive_steer(set),
+          set->convention == BIKE_CONVENTION_SAE ? "as in the literature" : "ISO 8855");
   if (*set->note) {
     fputs("<p>", out);
     draw_put_escaped(out, set->note);

@@ -5,13 +5,17 @@
 #define BICYCLE_CLI_FIGURES_FIGURE_SET_H
 
 #include "plot.h"
+#include "terminal/convention.h"
 #include "terminal/exit_code.h"
 
 #include <bicycle/bicycle.h>
 
-// Static texts. `held` says what is held fixed along the axes.
+// Static texts but for the caption, which need not outlive figure_add. `held` says what is held
+// fixed along the axes.
 typedef struct figure_words {
-  const char *name, *title, *caption, *held; // name: of its files, without their ends
+  const char *name;   // of its files, without their ends
+  const char *number; // as in "2(a)"
+  const char *title, *caption, *held;
 } figure_words;
 
 typedef struct figure {
@@ -22,18 +26,22 @@ typedef struct figure {
   size_t svg_size, csv_size;
 } figure;
 
-enum { MAX_FIGURES = 8 };
+enum { MAX_FIGURES = 8, FIGURE_CAPTION = 768 }; // bytes of a caption
 
 typedef struct figure_set {
   const bike_bicycle *bicycle;
+  bike_convention convention; // of steering angles
   int count;
   figure figures[MAX_FIGURES];
   char note[256]; // what could not be drawn, and why; may be empty
 } figure_set;
 
-// Adds a picture; draws `p` with the caption, which need not outlive the call. Returns where its
-// table goes: write it and close it. NULL when out of memory. The title is "BICYCLE: title".
+// Adds a picture; draws `p` with "Figure NUMBER, BICYCLE. CAPTION" below. Returns where its table
+// goes: write it and close it. NULL when out of memory. The title is "BICYCLE: title".
 FILE *figure_add(figure_set *set, const figure_words *words, plot *p);
+
+// "left" or "right".
+const char *figure_positive_steer(const figure_set *set);
 
 // Makes the folder if need be, and writes NAME.svg, NAME.csv of every figure and index.html. Each
 // file appears whole or not at all. On failure one line is printed.

@@ -76,7 +76,7 @@ bool plot_write(plot *p, const char *id, const char *title, const char *caption,
   if (!is_whole(p->areas) || !is_whole(p->lines) || !is_whole(p->labels) || !is_whole(p->gaps) ||
       p->obstacles.lost)
     return false;
-  double height = frame_total_height(frame_caption(caption, NULL));
+  double height = frame_total_height(frame_caption(caption, p->rows_below, NULL), p->rows_below);
   fprintf(stream,
           "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%.0f\" "
           "viewBox=\"0 0 %d %.0f\" role=\"img\">\n<title>",
@@ -90,7 +90,7 @@ bool plot_write(plot *p, const char *id, const char *title, const char *caption,
           id, p->text[0], id, p->text[1]);
   frame_draw(p, stream);
   fputs(p->text[2], stream);
-  frame_caption(caption, stream);
+  frame_caption(caption, p->rows_below, stream);
   fputs("</svg>\n", stream);
   return true;
 }

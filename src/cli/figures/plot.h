@@ -51,6 +51,7 @@ typedef struct plot {
   char *text[PLOT_LAYERS];
   size_t size[PLOT_LAYERS];
   draw_obstacles obstacles; // pixels: where labels should not be
+  int rows_below;           // of a key below the frame
 } plot;
 
 // False when out of memory. Close it in any case.
@@ -102,8 +103,10 @@ typedef struct plot_entry {
   const char *text;
 } plot_entry;
 
-// The key, in the corner of the frame where it covers least.
+// The key, in the corner of the frame where it covers least; or below the frame, where the frame is
+// full.
 void plot_key(plot *p, const plot_entry *entries, int count);
+void plot_key_below(plot *p, const plot_entry *entries, int count);
 
 // A filled circle, for single values.
 void plot_dot(plot *p, plot_point at);

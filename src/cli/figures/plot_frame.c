@@ -124,13 +124,24 @@ static void put_marked(FILE *stream, const char *text, size_t length) {
   }
 }
 
-int frame_caption(const char *text, FILE *stream) {
+double frame_key_row(int row) {
+  return FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 26 + row * KEY_LINE;
+}
+
+// What a key takes away from the caption.
+static int key_height(int rows) {
+  const int gap = 6; // pixels
+  return rows > 0 ? rows * KEY_LINE + gap : 0;
+}
+
+int frame_caption(const char *text, int key_rows, FILE *stream) {
   int lines = 0;
   while (*text) {
     size_t length = line_length(text);
     if (stream) {
       fprintf(stream, "<text class=\"caption\" x=\"20\" y=\"%d\">",
-              FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 30 + lines * CAPTION_LINE);
+              FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 30 + key_height(key_rows) +
+                  lines * CAPTION_LINE);
       put_marked(stream, text, length);
       fputs("</text>\n", stream);
     }
@@ -141,6 +152,6 @@ int frame_caption(const char *text, FILE *stream) {
   return lines;
 }
 
-double frame_total_height(int lines) {
-  return FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 22 + lines * CAPTION_LINE;
+double frame_total_height(int lines, int key_rows) {
+  return FRAME_TOP + FRAME_HEIGHT + TITLE_GAP + 22 + key_height(key_rows) + lines * CAPTION_LINE;
 }

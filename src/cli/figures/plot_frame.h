@@ -14,15 +14,20 @@ enum {
   PLOT_WIDTH = FRAME_LEFT + FRAME_WIDTH + 26,
   PLOT_FONT = 15,
   CAPTION_FONT = 12,
-  CAPTION_LINE = 17
+  CAPTION_LINE = 17,
+  KEY_LINE = 20
 };
 
 void frame_draw(const plot *p, FILE *stream);
 
-// Lines that a caption takes, its {symbols} in italics; writes them if `stream` is not NULL.
-int frame_caption(const char *text, FILE *stream);
+// The middle of a row of a key between the title of the x axis and the caption.
+double frame_key_row(int row);
 
-// Height of the picture for a number of lines of caption.
-double frame_total_height(int caption_lines);
+// Lines that a caption takes, its {symbols} in italics, below the rows of a key; writes them if
+// `stream` is not NULL.
+int frame_caption(const char *text, int key_rows, FILE *stream);
+
+// Height of the picture for a number of lines of caption and rows of a key above it.
+double frame_total_height(int caption_lines, int key_rows);
 
 #endif

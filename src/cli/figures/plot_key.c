@@ -6,16 +6,20 @@
 #include <float.h>
 #include <math.h>
 
-enum { KEY_FONT = 13, LINE = 20, SAMPLE = 38, PADDING = 10, OFF_FRAME = 14 };
+enum { KEY_FONT = 13, SAMPLE = 38, PADDING = 10, OFF_FRAME = 14 };
 
 static const char *const line_names[PLOT_STYLES] = {"thin", "dashed", "dotted", "heavy",
                                                     "heavy-dashed"};
 static const char *const fill_names[PLOT_FILLS] = {"light", "middle", "dark", "hatched", "white"};
 
+static double entry_width(const plot_entry *e) {
+  return SAMPLE + PADDING + 0.56 * KEY_FONT * draw_count_characters(e->text);
+}
+
 static double width_of(const plot_entry *entries, int count) {
   double most = 0;
-  for (int i = 0; i < count; i++) most = fmax(most, draw_count_characters(entries[i].text));
-  return SAMPLE + 3 * PADDING + 0.56 * KEY_FONT * most;
+  for (int i = 0; i < count; i++) most = fmax(most, entry_width(&entries[i]));
+  return most + 2 * PADDING;
 }
 
 // Of the four corners, the one where the key covers least.
@@ -51,13 +55,28 @@ static void put_entry(plot *p, const plot_entry *e, draw_point at) {
 }
 
 void plot_key(plot *p, const plot_entry *entries, int count) {
-  draw_box box = place_key(p, width_of(entries, count), count * LINE + PADDING);
+  draw_box box = place_key(p, width_of(entries, count), count * KEY_LINE + PADDING);
   fprintf(p->labels,
           "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fff\" "
           "stroke=\"#000\" stroke-width=\"0.8\"/>\n",
           box.low.x, box.low.y, box.high.x - box.low.x, box.high.y - box.low.y);
   for (int i = 0; i < count; i++)
     put_entry(p, &entries[i],
-              (draw_point){box.low.x + PADDING, box.low.y + 0.5 * PADDING + (i + 0.5) * LINE});
+              (draw_point){box.low.x + PADDING, box.low.y + 0.5 * PADDING + (i + 0.5) * KEY_LINE});
   draw_add_box(&p->obstacles, box);
+}
+
+// From the left, as many in a row as fit.
+void plot_key_below(plot *p, const plot_entry *entries, int count) {
+  const double left = 20, apart = 2.5 * PADDING; // pixels; the caption begins there too
+  double x = left;
+  for (int i = 0; i < count; i++) {
+    double width = entry_width(&entries[i]);
+    if (i == 0 || x + width > PLOT_WIDTH - left) {
+      p->rows_below++;
+      x = left;
+    }
+    put_entry(p, &entries[i], (draw_point){x, frame_key_row(p->rows_below - 1)});
+    x += width + apart;
+  }
 }

@@ -21,12 +21,16 @@ typedef struct label {
   double width; // pixels
 } label;
 
+// DejaVu Sans, in units of the font size: digits, the point, the minus sign.
+static double width_of(char c) {
+  return c == '.' ? 0.32 : c == '-' ? 0.84 : 0.64;
+}
+
 static label label_of(const char *text) {
-  label l;
+  label l = {.width = 0};
   bool negative = text[0] == '-';
   snprintf(l.text, sizeof l.text, "%s%s", negative ? "\u2212" : "", text + negative);
-  // DejaVu Sans: digits take 0.64 of the font size, the minus sign 0.84
-  l.width = LABEL_FONT * (0.64 * draw_count_characters(l.text) + 0.2 * negative);
+  for (const char *c = text; *c; c++) l.width += LABEL_FONT * width_of(*c);
   return l;
 }
 
