@@ -4,25 +4,6 @@
 #include "terminal/command.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-static bool parse(term_range *out, const char *text) {
-  char copy[128]; // three numbers with room for all their zeros
-  if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) return false;
-  char *second = strchr(copy, ':');
-  char *third = second ? strchr(second + 1, ':') : NULL;
-  if (!third) return false;
-  *second++ = *third++ = '\0';
-  term_range range;
-  if (!term_parse_angle(&range.first, copy) || !term_parse_angle(&range.last, second) ||
-      !term_parse_integer(&range.count, third, 1, TERM_MAX_RANGE))
-    return false;
-  bool one_point = range.first == range.last;
-  if (range.first > range.last || one_point != (range.count == 1)) return false;
-  *out = range;
-  return true;
-}
 
 static bool keeps(const term_range *range, const cli_angle_bounds *bounds) {
   bool above = bounds->from_low ? range->first >= bounds->low : range->first > bounds->low;
@@ -34,7 +15,7 @@ term_range cli_angle_range_of(const char *option, const char *text,
                               const cli_angle_bounds *bounds) {
   const double degrees = 180 / M_PI;
   term_range range;
-  if (!parse(&range, text) || !keeps(&range, bounds))
+  if (!term_parse_angle_range(&range, text) || !keeps(&range, bounds))
     term_usage("%s: '%s' is not A:B:N, N angles (%ld to %ld) from A %s %gdeg to B < %gdeg, B > A%s",
                option, text, bounds->least, bounds->most, bounds->from_low ? ">=" : ">",
                bounds->low * degrees, bounds->high * degrees,

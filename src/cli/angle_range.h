@@ -13,8 +13,8 @@ typedef struct cli_angle_bounds {
   long least, most;
 } cli_angle_bounds;
 
-// "A:B:N" as term_parse_range, A and B in radians or, with the suffix deg, in degrees; `option` is
-// its name, as in "--leans". A wrong range ends the program through term_usage.
+// "A:B:N" as term_parse_angle_range; `option` is its name, as in "--leans". A wrong range ends the
+// program through term_usage.
 term_range cli_angle_range_of(const char *option, const char *text, const cli_angle_bounds *bounds);
 
 #endif

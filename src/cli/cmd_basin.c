@@ -3,6 +3,7 @@
 #include "angle_range.h"
 #include "commands.h"
 #include "figures/basin_picture.h"
+#include "figures/plot_file.h"
 #include "terminal/command.h"
 #include "terminal/data.h"
 #include "terminal/json.h"
@@ -46,8 +47,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     state->child_inputs[1] = &args->show;
     return 0;
   case 'o':
-    if (!term_ends_with(text, ".svg")) term_usage("-o: '%s' is not the name of an .svg file", text);
-    args->output = text;
+    args->output = plot_name_of(text);
     return 0;
   case KEY_SPEED:
     args->speed = term_positive_of("--speed", text);

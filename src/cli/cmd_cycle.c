@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "cycle_answer.h"
 #include "figures/cycle_picture.h"
+#include "figures/plot_file.h"
 #include "terminal/command.h"
 #include "terminal/data.h"
 #include "terminal/json.h"
@@ -21,8 +22,7 @@ static const char documentation[] =
     "amplitude of the lean: the speed at which riding straight has the same energy, its distance "
     "from the weave speed, period, and stability by Floquet multipliers; and the weave mode "
     "around that speed. With --speed the cycles with the energy of riding straight at that speed, "
-    "up "
-    "to the largest amplitude. With -o X.svg a picture, and X.csv beside it.";
+    "up to the largest amplitude. With -o X.svg a picture, and X.csv beside it.";
 
 typedef struct arguments {
   const char *file, *output; // output NULL: none
@@ -44,8 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     state->child_inputs[1] = &args->show;
     return 0;
   case KEY_SEARCH:
-    if (!term_parse_interval(args->search, text) || args->search[0] < 0)
-      term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
+    term_search_of(args->search, text);
     return 0;
   case KEY_LEANS:
     args->leans = cli_angle_range_of("--leans", text, &amplitudes);
@@ -54,8 +53,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     args->speed = term_positive_of("--speed", text);
     return 0;
   case 'o':
-    if (!term_ends_with(text, ".svg")) term_usage("-o: '%s' is not the name of an .svg file", text);
-    args->output = text;
+    args->output = plot_name_of(text);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;

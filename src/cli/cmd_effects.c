@@ -37,8 +37,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     state->child_inputs[0] = &args->file;
     return 0;
   case KEY_SEARCH:
-    if (!term_parse_interval(args->search, text) || args->search[0] < 0)
-      term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
+    term_search_of(args->search, text);
     return 0;
   case KEY_SPEED:
     args->speed = term_number_of("--speed", text);
@@ -198,10 +197,9 @@ int cmd_effects(int argc, char **argv) {
 
   effects_list *list = calloc(1, sizeof *list);
   if (!list) return term_fail_bike(BIKE_ERROR_MEMORY, args.file);
-  bike_bicycle bicycle; // checks the file and says what is wrong with it
-  term_exit code = term_load_bicycle(&bicycle, NULL, args.file);
+  term_exit code = term_load_file(&list->file, args.file);
   if (code == TERM_DONE) {
-    int error = effects_list_make(list, args.file, args.search, args.speed);
+    int error = effects_list_make(list, args.search, args.speed);
     if (!error && !(args.json ? print_json(list) : print_tables(list))) error = BIKE_ERROR_MEMORY;
     if (error) code = term_fail_bike(error, args.file);
   }

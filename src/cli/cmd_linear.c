@@ -21,8 +21,7 @@ static const char documentation[] =
     "roll torque, acceleration of the rider offset), about riding straight and upright at a "
     "constant speed. Steer damping is in A alone. With --lean or --rider-offset A and B are those "
     "of the stationary turn of that speed, the one nearest to upright where there are several; "
-    "with "
-    "--lean and --rider-offset the speed is the turn's.";
+    "with --lean and --rider-offset the speed is the turn's.";
 
 typedef struct arguments {
   term_question question;

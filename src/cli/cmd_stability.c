@@ -19,9 +19,9 @@ static const char example[] = "Example: bicycle stability benchmark\n"
 static const char documentation[] =
     "Stability of riding straight and upright, rigid rider, hands off: the eigenvalues in 1/s at "
     "each speed, falling, with the names of their modes (weave, capsize, castering; followed from "
-    "the fastest oscillation), the weave and capsize speeds, and the ranges of speed "
-    "in "
-    "which every disturbance dies out.";
+    "the fastest oscillation), the weave and capsize speeds, and the ranges of speed in which "
+    "every "
+    "disturbance dies out.";
 
 typedef struct arguments {
   term_question question;
@@ -42,8 +42,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       term_usage("--speeds: '%s' is not A:B:N, N points from A to B > A", text);
     return 0;
   case KEY_SEARCH:
-    if (!term_parse_interval(args->search, text) || args->search[0] < 0)
-      term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
+    term_search_of(args->search, text);
     return 0;
   default:
     return ARGP_ERR_UNKNOWN;

@@ -39,7 +39,7 @@ static void take(bike_turn_def *def, int v, const char *text) {
 
 // What the library would refuse without saying which.
 static void check(const bike_turn_def *def) {
-  const double degree = 3.14159265358979323846 / 180;
+  const double degree = M_PI / 180;
   const struct {
     double limit, unit;
     const char *name;

@@ -33,24 +33,25 @@ static int find_modes(cycle_answer *out, const bike_model *model) {
   return code;
 }
 
-// Follows the cycles from small to large. An amplitude without a cycle ends it.
+// Follows the cycles from small to large. An amplitude without a cycle ends it, want of memory all.
 static int find_cycles(cycle_answer *out, const bike_model *model, const term_range *leans) {
   term_progress progress = {0};
   out->ended_at = NAN;
   out->cycles = calloc((size_t)leans->count, sizeof *out->cycles);
   if (!out->cycles) return BIKE_ERROR_MEMORY;
-  for (int i = 0; i < leans->count; i++) {
+  int code = BIKE_OK;
+  for (int i = 0; i < leans->count && !code; i++) {
     double lean = term_range_point(leans, i);
     term_progress_show(&progress, "cycles", (double)i / (double)leans->count);
-    if (bike_cycle_find(&out->cycles[i], model, lean, out->weave,
-                        i > 0 ? &out->cycles[i - 1] : NULL)) {
+    code = bike_cycle_find(&out->cycles[i], model, lean, out->weave,
+                           i > 0 ? &out->cycles[i - 1] : NULL);
+    if (code)
       out->ended_at = lean;
-      break;
-    }
-    out->count++;
+    else
+      out->count++;
   }
   term_progress_clear(&progress);
-  return BIKE_OK;
+  return code == BIKE_ERROR_MEMORY ? code : BIKE_OK;
 }
 
 // Looks between neighbours of the branch, the first of which is straight riding.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects_list.h"
 
-#include "terminal/data.h"
-
 #include <bicycle/error.h>
 #include <math.h>
 #include <string.h>
@@ -83,13 +81,9 @@ static int find_lean(effects_list *out, const double search[2], double speed) {
   return code == BIKE_ERROR_NO_RIDER ? BIKE_OK : code;
 }
 
-int effects_list_make(effects_list *out, const char *file, const double search[2], double speed) {
-  char path[TERM_PATH_SIZE];
-  if (!term_bicycle_path(path, file)) return BIKE_ERROR_FILE;
-  int code = bike_file_read(&out->file, path, NULL);
-  if (code) return code;
+int effects_list_make(effects_list *out, const double search[2], double speed) {
   const bike_meijaard *literature = out->file.has_meijaard ? &out->file.meijaard : NULL;
-  code = bike_effects_find(&out->effects, &out->file.bicycle, literature, search[0], search[1]);
+  int code = bike_effects_find(&out->effects, &out->file.bicycle, literature, search[0], search[1]);
   if (!code) code = find_lean(out, search, speed);
   if (code) return code;
   for (out->count = 0; out->count < EFFECTS_CHANGES; out->count++)

@@ -28,8 +28,8 @@ typedef struct effects_list {
   effects_change changes[EFFECTS_CHANGES];
 } effects_list;
 
-// `speed` NaN: the middle of the first stable range, 5 m/s where there is none. `file` must have
-// been seen to be readable.
-int effects_list_make(effects_list *out, const char *file, const double search[2], double speed);
+// Of the bicycle in out->file. `speed` NaN: the middle of the first stable range, 5 m/s where there
+// is none.
+int effects_list_make(effects_list *out, const double search[2], double speed);
 
 #endif

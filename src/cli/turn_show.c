@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = M_PI / 180;
 
 static bool has_lifted(const bike_turn *turn) {
   return turn->rear_normal < 0 || turn->front_normal < 0;

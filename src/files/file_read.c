@@ -21,8 +21,7 @@ static void name_of_path(char name[BIKE_NAME_SIZE], const char *path) {
   const char *base = slash ? slash + 1 : path;
   const char *dot = strrchr(base, '.');
   const size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
-  snprintf(name, BIKE_NAME_SIZE, "%.*s", length < BIKE_NAME_SIZE ? (int)length : BIKE_NAME_SIZE - 1,
-           base);
+  bike_text_name(name, BIKE_NAME_SIZE, base, length);
 }
 
 typedef int symbols_reader(bike_symbols *out, char name[BIKE_NAME_SIZE], const bike_yaml *yaml);

@@ -3,7 +3,6 @@
 #include "forms.h"
 
 #include <bicycle/error.h>
-#include <stdio.h>
 #include <string.h>
 
 // What stands beside the symbols. `rider` and `description` are read and not used: whether B holds
@@ -42,7 +41,7 @@ static int read_name(const bike_yaml *yaml, const bike_field *field, void *targe
   char text[BIKE_MESSAGE_SIZE];
   if (bike_yaml_is_null(field) || bike_yaml_is_empty_text(field)) return BIKE_OK;
   const int code = bike_yaml_text(yaml, field, text, sizeof text);
-  if (!code) snprintf(h->name, sizeof h->name, "%.*s", (int)sizeof h->name - 1, text);
+  if (!code) bike_text_name(h->name, sizeof h->name, text, strlen(text));
   return code;
 }
 

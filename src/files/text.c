@@ -45,10 +45,16 @@ static int control_line(const bike_text *text, size_t from) {
   return 0;
 }
 
-// Bytes of the UTF-8 character that begins there, or 0 where there is none. Overlong forms and
-// surrogates pass: they do no harm here.
-static size_t character_size(const char *data, size_t left) {
-  const unsigned char first = (unsigned char)*data;
+// The second byte of a character tells overlong forms, surrogates and what is beyond U+10FFFF,
+// which JSON and XML refuse.
+static bool is_second(unsigned char first, unsigned char second) {
+  const unsigned char low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned char high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  return second >= low && second <= high;
+}
+
+size_t bike_text_character(const char *data, size_t left) {
+  const unsigned char first = left ? (unsigned char)*data : 0xff;
   const size_t size = first < 0x80   ? 1
                       : first < 0xc2 ? 0
                       : first < 0xe0 ? 2
@@ -56,15 +62,32 @@ static size_t character_size(const char *data, size_t left) {
                       : first < 0xf5 ? 4
                                      : 0;
   if (size > left) return 0;
-  for (size_t k = 1; k < size; ++k)
+  if (size > 1 && !is_second(first, (unsigned char)data[1])) return 0;
+  for (size_t k = 2; k < size; ++k)
     if (((unsigned char)data[k] & 0xc0) != 0x80) return 0;
   return size;
+}
+
+void bike_text_name(char *out, size_t size, const char *text, size_t length) {
+  size_t used = 0;
+  for (size_t at = 0, step; at < length; at += step) {
+    const size_t whole = bike_text_character(text + at, length - at);
+    step = whole ? whole : 1;
+    if (used + step >= size) break;
+    const bool shown = whole && (unsigned char)text[at] >= 0x20 && text[at] != 0x7f;
+    if (shown)
+      memcpy(out + used, text + at, step);
+    else
+      memset(out + used, '?', step);
+    used += step;
+  }
+  out[used] = '\0';
 }
 
 // libfyaml reads invalid UTF-8 as an empty value and goes on: it must not come that far.
 static int check_utf8(const bike_text *text, const char *path, bike_file_error *error) {
   for (size_t at = 0, size; at < text->size; at += size) {
-    size = character_size(text->data + at, text->size - at);
+    size = bike_text_character(text->data + at, text->size - at);
     if (!size)
       return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line_at(text, at), NULL, not_utf8);
   }
@@ -129,7 +152,7 @@ FILE *bike_text_open(const char *path, bike_file_error *error) {
 const char *bike_text_objection(const char *data, size_t size) {
   for (size_t at = 0, step; at < size; at += step) {
     if (is_control(data[at])) return not_text;
-    step = character_size(data + at, size - at);
+    step = bike_text_character(data + at, size - at);
     if (!step) return not_utf8;
   }
   return NULL;

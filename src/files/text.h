@@ -27,6 +27,13 @@ FILE *bike_text_open(const char *path, bike_file_error *error);
 // may be cut at their end.
 const char *bike_text_objection(const char *data, size_t size);
 
+// Bytes of the UTF-8 character that begins there, or 0 where there is none, of `left` bytes.
+size_t bike_text_character(const char *data, size_t left);
+
+// Copies what fits of a name from anywhere: whole characters; what is none, or a control character,
+// becomes '?'. `out` has room for `size` bytes, the terminator among them.
+void bike_text_name(char *out, size_t size, const char *text, size_t length);
+
 // BIKE_ERROR_FILE with "path: " and what the number of an errno means.
 int bike_text_system_error(const char *path, int number, bike_file_error *error);
 

@@ -6,6 +6,7 @@
 #include "terminal/data.h"
 #include "terminal/json.h"
 
+#include <bicycle/error.h>
 #include <bicycle/parameters.h>
 #include <string.h>
 #include <unistd.h>
@@ -45,17 +46,17 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static term_exit print(const bike_parameters *parameters, bool json) {
+static void print_list(const bike_parameters *p) {
+  for (int i = 0; i < bike_parameters_count(p); i++)
+    printf("%-36s %.17g\n", bike_parameters_name(p, i), bike_parameters_value(p, i));
+}
+
+static term_exit print_json(const bike_parameters *p) {
   json_t *all = json_object();
-  for (int i = 0; i < bike_parameters_count(parameters); i++) {
-    const char *name = bike_parameters_name(parameters, i);
-    const double value = bike_parameters_value(parameters, i);
-    json_object_set_new(all, name, term_json_number(value));
-    if (!json) printf("%-36s %.17g\n", name, value);
-  }
-  if (json) return term_json_write(all, stdout) ? TERM_DONE : TERM_INVALID;
-  json_decref(all);
-  return TERM_DONE;
+  for (int i = 0; i < bike_parameters_count(p); i++)
+    json_object_set_new(all, bike_parameters_name(p, i),
+                        term_json_number(bike_parameters_value(p, i)));
+  return term_json_write(all, stdout) ? TERM_DONE : term_fail_bike(BIKE_ERROR_MEMORY, "--json");
 }
 
 int cmd_names(int argc, char **argv) {
@@ -70,7 +71,11 @@ int cmd_names(int argc, char **argv) {
   if (!term_bicycle_path(path, args.file)) return term_fail(TERM_USAGE, "the path is too long");
   const int code = bike_parameters_read(&parameters, &file, path, &error);
   if (code) return term_fail(term_exit_of(code), "%s", error.text);
-  const term_exit status = print(parameters, args.json);
+  term_exit status = TERM_DONE;
+  if (args.json)
+    status = print_json(parameters);
+  else
+    print_list(parameters);
   bike_parameters_free(parameters);
   return status;
 }

@@ -27,14 +27,15 @@ static term_exit write_table(const sweep_run *run, const char *log_path, char cs
 static bool print_json(const sweep_run *run, const sweep_job *job, const char *log_path,
                        const char *csv, double seconds, sweep_ranks ranks) {
   return term_json_write(
-      json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:i, s:o, s:s, s:s?, s:b}",
-                "spec", run->spec_path, "bicycle", job->spec->file.bicycle.name, "sha256",
-                job->spec->hash, "points", (json_int_t)job->spec->points, "shard",
+      json_pack("{s:o, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:i, s:o, s:o, s:o, s:b}",
+                "spec", term_json_text(run->spec_path), "bicycle", job->spec->file.bicycle.name,
+                "sha256", job->spec->hash, "points", (json_int_t)job->spec->points, "shard",
                 (json_int_t)run->shard.number, "shards", (json_int_t)run->shard.count,
                 "shard_points", (json_int_t)job->tasks.own, "done", (json_int_t)job->done,
                 "resumed", (json_int_t)job->resumed, "failed", (json_int_t)job->failed, "ranks",
-                ranks.count, "seconds", term_json_number(seconds), "log", log_path, "csv", csv,
-                "interrupted", sweep_interrupted() != 0),
+                ranks.count, "seconds", term_json_number(seconds), "log", term_json_text(log_path),
+                "csv", csv ? term_json_text(csv) : json_null(), "interrupted",
+                sweep_interrupted() != 0),
       stdout);
 }
 

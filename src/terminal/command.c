@@ -85,6 +85,11 @@ double term_angle_of(const char *option, const char *text) {
   return value;
 }
 
+void term_search_of(double out[2], const char *text) {
+  if (!term_parse_interval(out, text) || out[0] < 0)
+    term_usage("--search: '%s' is not LO:HI with 0 <= LO < HI", text);
+}
+
 void term_take_argument(const char **out, const char *text, const char *what) {
   if (*out) term_usage("one %s is enough: '%s' is one too many", what, text);
   *out = text;

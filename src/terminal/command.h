@@ -36,6 +36,9 @@ double term_number_of(const char *option, const char *text);
 double term_positive_of(const char *option, const char *text);
 double term_angle_of(const char *option, const char *text);
 
+// The value of --search: "LO:HI", m/s, with 0 <= LO < HI.
+void term_search_of(double out[2], const char *text);
+
 // Keeps the one positional argument of a command, called `what` in messages, as in "FILE".
 void term_take_argument(const char **out, const char *text, const char *what);
 

@@ -2,7 +2,6 @@
 #include "terminal/data.h"
 
 #include <bicycle/error.h>
-#include <bicycle/file.h>
 #include <dirent.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -80,16 +79,26 @@ static term_exit fail_unknown(const char *file) {
                    *shipped ? shipped : "none found");
 }
 
-term_exit term_load_bicycle(bike_bicycle *bicycle, bike_model *model, const char *file) {
-  char path[TERM_PATH_SIZE];
+// The path tells of errors that are found later.
+static term_exit load(bike_file *out, char path[TERM_PATH_SIZE], const char *file) {
   bike_file_error error;
-  bike_file read;
   if (!term_bicycle_path(path, file)) return term_fail(TERM_USAGE, "%s: path too long", file);
   if (is_bare_name(file) && access(path, F_OK) != 0) return fail_unknown(file);
-  int code = bike_file_read(&read, path, &error);
-  if (code != BIKE_OK) return term_fail(term_exit_of(code), "%s", error.text);
+  int code = bike_file_read(out, path, &error);
+  return code == BIKE_OK ? TERM_DONE : term_fail(term_exit_of(code), "%s", error.text);
+}
+
+term_exit term_load_file(bike_file *out, const char *file) {
+  char path[TERM_PATH_SIZE];
+  return load(out, path, file);
+}
+
+term_exit term_load_bicycle(bike_bicycle *bicycle, bike_model *model, const char *file) {
+  char path[TERM_PATH_SIZE];
+  bike_file read;
+  term_exit status = load(&read, path, file);
+  if (status != TERM_DONE) return status;
   *bicycle = read.bicycle;
-  if (model && (code = bike_model_init(model, bicycle)) != BIKE_OK)
-    return term_fail_bike(code, path);
-  return TERM_DONE;
+  int code = model ? bike_model_init(model, bicycle) : BIKE_OK;
+  return code == BIKE_OK ? TERM_DONE : term_fail_bike(code, path);
 }

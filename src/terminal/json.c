@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terminal/json.h"
 
+#include "files/text.h"
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 json_t *term_json_number(double value) {
   return isfinite(value) ? json_real(value + 0.0) : json_null(); // "0.0" also of a negative zero
+}
+
+json_t *term_json_text(const char *text) {
+  size_t length = strlen(text), used = 0;
+  char *copy = malloc(3 * length + 1);
+  for (size_t at = 0, step; copy && at < length; at += step) {
+    const size_t whole = bike_text_character(text + at, length - at);
+    step = whole ? whole : 1;
+    memcpy(copy + used, whole ? text + at : "\ufffd", whole ? whole : 3);
+    used += whole ? whole : 3;
+  }
+  json_t *out = copy ? json_stringn(copy, used) : NULL;
+  free(copy);
+  return out;
 }
 
 json_t *term_json_numbers(const double *values, size_t count) {

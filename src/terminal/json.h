@@ -11,6 +11,9 @@
 // JSON knows no NaN and no infinity, and json_real refuses them with NULL: null, on purpose.
 json_t *term_json_number(double value);
 
+// A text that need not be UTF-8, as names of files: what is none becomes U+FFFD.
+json_t *term_json_text(const char *text);
+
 // An array of numbers.
 json_t *term_json_numbers(const double *values, size_t count);
 

@@ -67,17 +67,27 @@ bool term_parse_interval(double out[2], const char *text) {
   return true;
 }
 
-bool term_parse_range(term_range *out, const char *text) {
+typedef bool parse_function(double *out, const char *text);
+
+static bool parse_range(term_range *out, const char *text, parse_function *parse_end) {
   char copy[TEXT_SIZE], *part[3];
   term_range range;
   if (!copy_text(copy, text) || !split(copy, part, 3)) return false;
-  if (!term_parse_number(&range.first, part[0]) || !term_parse_number(&range.last, part[1]) ||
+  if (!parse_end(&range.first, part[0]) || !parse_end(&range.last, part[1]) ||
       !term_parse_integer(&range.count, part[2], 1, TERM_MAX_RANGE))
     return false;
   bool one_point = range.first == range.last;
   if (range.first > range.last || one_point != (range.count == 1)) return false;
   *out = range;
   return true;
+}
+
+bool term_parse_range(term_range *out, const char *text) {
+  return parse_range(out, text, term_parse_number);
+}
+
+bool term_parse_angle_range(term_range *out, const char *text) {
+  return parse_range(out, text, term_parse_angle);
 }
 
 double term_range_point(const term_range *range, long index) {

@@ -28,6 +28,9 @@ enum { TERM_MAX_RANGE = 1000000 };
 
 bool term_parse_range(term_range *out, const char *text);
 
+// The same of angles: A and B in radians or, with the suffix deg, in degrees.
+bool term_parse_angle_range(term_range *out, const char *text);
+
 // Point `index` of a range; the ends are exact.
 double term_range_point(const term_range *range, long index);
 

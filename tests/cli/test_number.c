@@ -52,12 +52,17 @@ static void ranges(void **state) {
   assert_near(term_range_point(&range, 3), 0.4, 1e-16);
   assert_true(term_parse_range(&range, "-3:-3:1"));
   assert_near(term_range_point(&range, 0), -3, 0);
+  assert_true(term_parse_angle_range(&range, "-5deg:0.25:3"));
+  assert_near(term_range_point(&range, 0), -5 * M_PI / 180, 1e-16);
+  assert_near(term_range_point(&range, 2), 0.25, 0);
   double interval[2];
   assert_true(term_parse_interval(interval, "0:20"));
   static const char *const wrong[] = {"0:1", "0:1:0", "0:1:1", "1:1:2",   "1:0:3",  "0:1:2:3",
                                       "::",  "0:1:",  "0:x:3", "0:1:2.5", "0:nan:3"};
   for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-    if (term_parse_range(&range, wrong[i])) fail_msg("'%s' was taken", wrong[i]);
+    if (term_parse_range(&range, wrong[i]) || term_parse_angle_range(&range, wrong[i]))
+      fail_msg("'%s' was taken", wrong[i]);
+  if (term_parse_range(&range, "0deg:5deg:3")) fail_msg("numbers have no unit");
   static const char *const wrong_interval[] = {"1", "1:1", "2:1", ":1", "1:", "0:1:2", "a:b"};
   for (size_t i = 0; i < sizeof wrong_interval / sizeof wrong_interval[0]; i++)
     if (term_parse_interval(interval, wrong_interval[i]))

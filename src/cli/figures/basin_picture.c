@@ -7,7 +7,7 @@
 #include <bicycle/error.h>
 #include <math.h>
 
-static const double DEGREES = 180 / 3.14159265358979323846;
+static const double DEGREES = 180 / M_PI;
 
 static const plot_fill fills[BIKE_FATES] = {
     [BIKE_FATE_STRAIGHT] = PLOT_MIDDLE, [BIKE_FATE_LIFTED] = PLOT_LIGHT,

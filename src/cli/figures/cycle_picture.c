@@ -7,7 +7,7 @@
 #include <bicycle/error.h>
 #include <math.h>
 
-static const double DEGREES = 180 / 3.14159265358979323846;
+static const double DEGREES = 180 / M_PI;
 
 // Distance below the weave speed.
 static double below(const cycle_branch *b, int i) {

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figure_list.h"
 
+#include <stdlib.h>
+
 static json_t *path_json(const char *folder, const char *name, const char *end) {
-  return json_sprintf("%s/%s%s", folder, name, end);
+  char *path = NULL;
+  if (asprintf(&path, "%s/%s%s", folder, name, end) < 0) return NULL;
+  json_t *out = term_json_text(path);
+  free(path);
+  return out;
 }
 
 static json_t *axis_json(const plot_axis *axis) {
@@ -24,8 +30,8 @@ json_t *figure_list_json(const figure_set *set, const char *folder, bike_convent
   json_t *figures = json_array();
   for (int i = 0; i < set->count; i++)
     json_array_append_new(figures, figure_json(&set->figures[i], folder));
-  return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o}", "bicycle", set->bicycle->name, "convention",
-                   term_convention_name(convention), "folder", folder, "page",
+  return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "bicycle", set->bicycle->name, "convention",
+                   term_convention_name(convention), "folder", term_json_text(folder), "page",
                    path_json(folder, "index", ".html"), "figures", figures, "missing",
                    *set->note ? json_string(set->note) : json_null());
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double DEGREES = 180 / 3.14159265358979323846;
+static const double DEGREES = 180 / M_PI;
 
 // One panel: a quantity over speed and lean, in the unit of its contours.
 typedef struct panel {

@@ -6,6 +6,9 @@
 #include "plot.h"
 #include "terminal/exit_code.h"
 
+// The value of -o: "X.svg". Another text ends the program through term_usage.
+const char *plot_name_of(const char *text);
+
 // Called to fill a table.
 typedef void plot_table(FILE *csv, const void *user);
 
