@@ -29,7 +29,12 @@ typedef struct arguments {
 static const char *const names[BIKE_TURN_VARIABLES] = {"--speed", "--lean", "--steer",
                                                        "--rider-offset"};
 
-enum { KEY_VARIABLE = TERM_KEY_FIRST, KEY_STEER_TORQUE = KEY_VARIABLE + BIKE_TURN_VARIABLES };
+enum {
+  KEY_VARIABLE = TERM_KEY_FIRST,
+  KEY_STEER_TORQUE = KEY_VARIABLE + BIKE_TURN_VARIABLES,
+  KEY_SPEED_LIMIT,
+  KEY_OFFSET_LIMIT
+};
 
 static void take(bike_turn_def *def, int v, const char *text) {
   bool angle = v == BIKE_TURN_LEAN || v == BIKE_TURN_STEER;
@@ -39,29 +44,38 @@ static void take(bike_turn_def *def, int v, const char *text) {
 
 // What the library would refuse without saying which.
 static void check(const bike_turn_def *def) {
-  const double degree = M_PI / 180;
-  const struct {
-    double limit, unit;
-    const char *name;
-  } range[BIKE_TURN_VARIABLES] = {{def->speed_limit, 1, "m/s"},
-                                  {def->lean_limit, degree, "deg"},
-                                  {def->steer_limit, degree, "deg"},
-                                  {def->offset_limit, 1, "m"}};
   int count = 0;
-  for (int v = 0; v < BIKE_TURN_VARIABLES; v++) {
-    if (!def->given[v]) continue;
-    count++;
-    if (fabs(def->value[v]) > range[v].limit)
-      term_usage("%s: %g %s is beyond the range of the search, %g %s", names[v],
-                 def->value[v] / range[v].unit, range[v].name, range[v].limit / range[v].unit,
-                 range[v].name);
-  }
+  for (int v = 0; v < BIKE_TURN_VARIABLES; v++) count += def->given[v];
   bool place = def->given[BIKE_TURN_LEAN] || def->given[BIKE_TURN_STEER];
   if (count > 2 || count == 0 || (count == 1 && place))
     term_usage("give two of --speed, --lean, --steer, --rider-offset (or --speed or "
                "--rider-offset alone)");
   if (def->given[BIKE_TURN_SPEED] && def->value[BIKE_TURN_SPEED] < 0)
     term_usage("--speed: %g is negative", def->value[BIKE_TURN_SPEED]);
+}
+
+// Limits are known once the bicycle is.
+static term_exit check_range(const bike_turn_def *def) {
+  const double degree = 3.14159265358979323846 / 180;
+  const struct {
+    double limit, unit;
+    const char *name, *hint;
+  } range[BIKE_TURN_VARIABLES] = {{def->speed_limit, 1, "m/s", " (see --speed-limit)"},
+                                  {def->lean_limit, degree, "deg", ""},
+                                  {def->steer_limit, degree, "deg", ""},
+                                  {def->offset_limit, 1, "m", " (see --offset-limit)"}};
+  for (int v = 0; v < BIKE_TURN_VARIABLES; v++)
+    if (def->given[v] && fabs(def->value[v]) > range[v].limit)
+      return term_fail(TERM_USAGE, "%s: %g %s is beyond the range of the search, %g %s%s", names[v],
+                       def->value[v] / range[v].unit, range[v].name,
+                       range[v].limit / range[v].unit, range[v].name, range[v].hint);
+  return TERM_DONE;
+}
+
+static double limit_of(const char *option, const char *text) {
+  double limit = term_number_of(option, text);
+  if (!(limit > 0)) term_usage("%s: '%s' is not positive", option, text);
+  return limit;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state) {
@@ -79,6 +93,12 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   case KEY_STEER_TORQUE:
     args->def.steer_torque = term_number_of("--steer-torque", text);
     return 0;
+  case KEY_SPEED_LIMIT:
+    args->def.speed_limit = limit_of("--speed-limit", text);
+    return 0;
+  case KEY_OFFSET_LIMIT:
+    args->def.offset_limit = limit_of("--offset-limit", text);
+    return 0;
   case ARGP_KEY_END:
     check(&args->def);
     return 0;
@@ -94,6 +114,11 @@ static const struct argp_option options[] = {
     {"rider-offset", KEY_VARIABLE + BIKE_TURN_OFFSET, "W", 0,
      "Rider to the right of the file's place, m", 1},
     {"steer-torque", KEY_STEER_TORQUE, "T", 0, "Torque on the steer, left positive, N m (0)", 2},
+    {"speed-limit", KEY_SPEED_LIMIT, "V", 0,
+     "Fastest speed that is looked for, m/s (50, of very small or large bicycles by their size)",
+     3},
+    {"offset-limit", KEY_OFFSET_LIMIT, "W", 0,
+     "Farthest rider offset that is looked for, m (1, likewise)", 3},
     {0},
 };
 
@@ -118,6 +143,9 @@ int cmd_turn(int argc, char **argv) {
   bike_bicycle bicycle;
   bike_model model;
   term_exit code = term_load_bicycle(&bicycle, &model, args.question.file);
+  if (code != TERM_DONE) return code;
+  args.def = bike_turn_limits(&args.def, &model);
+  code = check_range(&args.def);
   if (code != TERM_DONE) return code;
 
   bike_turns *found = calloc(1, sizeof *found); // large for a stack

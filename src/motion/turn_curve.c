@@ -2,7 +2,10 @@
 #include "motion/turn_curve.h"
 
 #include <bicycle/error.h>
+#include <float.h>
 #include <math.h>
+
+#include "motion/turn_terms.h"
 
 turn_curve turn_curve_of(const turn_bicycle *bicycle, const bike_turn_def *def, bool at_speed) {
   turn_curve c = {.bicycle = bicycle, .def = def, .at_speed = at_speed};
@@ -89,30 +92,36 @@ static int in_plane(double *f, double J[NEWTON_MAX][NEWTON_MAX], const double *y
   return BIKE_OK;
 }
 
-// Newton's method ends at the rounding of the terms, 1e-12 rad/s^2 at walking pace and more at
-// tight fast turns, or far above this; solutions themselves are judged again.
-static const double SOLVED = 1e-8;
-
-static int correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
-                   const turn_point *from, double distance, double solved) {
-  plane_question question = {curve, from, distance};
-  turn_point found = *out;
-  if (newton_solve(solver, found.y, residual, in_plane, &question)) return BIKE_ERROR_GEOMETRY;
-  if (!(*residual <= solved)) return BIKE_ERROR_NO_CONVERGENCE;
-  int code = turn_curve_tangent(found.along, curve, found.y, from->along);
-  if (!code) *out = found;
+// What Newton's method may leave is rounding, of the terms and of the coordinates, which slopes
+// carry on where the geometry nearly ends. Solutions themselves are judged again.
+static int solved(bool *out, const turn_curve *c, const double y[Y_SIZE], double residual) {
+  const double rounding = 64 * DBL_EPSILON;
+  double offset = turn_curve_offset(c, y), f[TURN_ROWS], J[TURN_ROWS][Y_SIZE], slopes = 0;
+  turn_forces at;
+  int code = turn_forces_at(&at, c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
+  if (code) return code;
+  double terms = turn_row_terms(c->bicycle, turn_moments(c->bicycle, &at, swept(c, y), offset));
+  *out = residual <= rounding * terms;
+  if (*out) return BIKE_OK;
+  code = turn_curve_equations(f, J, c, y);
+  for (int i = 0; i < TURN_ROWS && !code; i++)
+    for (int j = 0; j < Y_SIZE; j++) slopes = fmax(slopes, fabs(J[i][j]) * fmax(1, fabs(y[j])));
+  *out = residual <= rounding * (terms + slopes);
   return code;
 }
 
 int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
                        const turn_point *from, double distance) {
-  return correct(out, residual, curve, solver, from, distance, SOLVED);
-}
-
-int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
-                               newton *solver, const turn_point *from, double distance) {
-  // where the ends of a tight fast turn pass just so, what is between need not: 1.5e-8 was met
-  return correct(out, residual, curve, solver, from, distance, 100 * SOLVED);
+  plane_question question = {curve, from, distance};
+  turn_point found = *out;
+  bool good;
+  if (newton_solve(solver, found.y, residual, in_plane, &question)) return BIKE_ERROR_GEOMETRY;
+  int code = solved(&good, curve, found.y, *residual);
+  if (code) return code;
+  if (!good) return BIKE_ERROR_NO_CONVERGENCE;
+  code = turn_curve_tangent(found.along, curve, found.y, from->along);
+  if (!code) *out = found;
+  return code;
 }
 
 double turn_curve_beyond(const turn_curve *c, const turn_point *at, bike_turn_variable variable,

@@ -40,11 +40,6 @@ int turn_curve_equations(double f[TURN_ROWS], double J[TURN_ROWS][Y_SIZE], const
 int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
                        const turn_point *from, double distance);
 
-// The same between two points of the branch, near which it is known to be: what is left may be a
-// hundred times as much.
-int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
-                               newton *solver, const turn_point *from, double distance);
-
 // The unit tangent at y, with a positive product with `direction`.
 int turn_curve_tangent(double along[Y_SIZE], const turn_curve *curve, const double y[Y_SIZE],
                        const double direction[Y_SIZE]);

@@ -3,8 +3,11 @@
 
 #include <bicycle/error.h>
 #include <bicycle/state.h>
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+#include "motion/turn_terms.h"
 
 typedef struct turn_unknowns {
   const turn_bicycle *bicycle;
@@ -80,12 +83,28 @@ static double largest_acceleration(const bike_acceleration *a) {
   return fmax(fmax(fabs(a->lean), fabs(a->steer)), fabs(a->speed));
 }
 
-// Accelerations are sums of terms of the size of g and of the centripetal acceleration, and their
-// rounding, divided by the small inertia of the steer, is some 1e-13 of these: tight fast turns of
-// 100 g are judged by 100 times the limit of riding in a street.
-static bool is_stationary(double residual, double speed, double yaw_rate, double gravity) {
-  const double limit = 1e-11;
-  return residual <= limit * fmax(1, fabs(speed * yaw_rate) / gravity);
+// Whether accelerations are nothing but rounding: of the terms that add up, and of lean and steer,
+// which slopes carry on where the geometry nearly ends.
+static int is_stationary(bool *out, const turn_bicycle *bicycle, const turn_place *at,
+                         const bike_state *state, const bike_acceleration *left,
+                         const bike_linear *linear) {
+  const double rounding = 16 * DBL_EPSILON; // measured: 1 and less on ordinary turns
+  turn_forces forces;
+  bike_acceleration terms;
+  int code = turn_forces_at(&forces, bicycle, at->lean, at->steer, at->offset);
+  if (code) return code;
+  double swept = state->speed * state->speed * sin(at->steer);
+  double moments = turn_moments(bicycle, &forces, swept, at->offset);
+  code = turn_acceleration_terms(&terms, bicycle, state, at->offset, moments);
+  if (code) return code;
+  // rows of the steer's and the lean's accelerations, columns of steer and lean
+  const double *A = linear->A;
+  double steer_slopes = fabs(A[8]) + fabs(A[9]), lean_slopes = fabs(A[12]) + fabs(A[13]);
+  double lean = terms.lean + lean_slopes, steer = terms.steer + steer_slopes;
+  double speed = terms.speed + bicycle->model->reach * (lean_slopes + steer_slopes);
+  *out = fabs(left->lean) <= rounding * lean && fabs(left->steer) <= rounding * steer &&
+         fabs(left->speed) <= rounding * speed;
+  return BIKE_OK;
 }
 
 static double friction(const double force[3]) {
@@ -119,15 +138,17 @@ int turn_describe(bike_turn *out, const turn_bicycle *bicycle, const turn_place 
   if (code) return code;
   turn.yaw_rate = now.yaw_rate;
   turn.residual = out->residual = largest_acceleration(&now.acceleration);
-  if (!is_stationary(turn.residual, state.speed, now.yaw_rate, model->gravity))
-    return BIKE_ERROR_NO_CONVERGENCE;
+  bike_linear linear;
+  bool stationary;
+  code = bike_linearize(&linear, model, &state, &input);
+  if (!code) code = is_stationary(&stationary, bicycle, at, &state, &now.acceleration, &linear);
+  if (code) return code;
+  if (!stationary) return BIKE_ERROR_NO_CONVERGENCE;
   turn.rear_normal = now.rear_force[2];
   turn.front_normal = now.front_force[2];
   turn.rear_friction = friction(now.rear_force);
   turn.front_friction = friction(now.front_force);
-  bike_linear linear;
   code = circle(&turn.radius, model, state, &input, now.yaw_rate);
-  if (!code) code = bike_linearize(&linear, model, &state, &input);
   if (!code) code = bike_eigenvalues_of(&turn.eigenvalues, linear.A);
   if (code) return code;
   turn.eps_max = turn.eigenvalues.re[0];

@@ -57,11 +57,11 @@ typedef struct bike_turn_def {
   bool given[BIKE_TURN_VARIABLES];   // one or two of them
   double value[BIKE_TURN_VARIABLES]; // of those given; speed >= 0
   double steer_torque;               // N m
-  // Where solutions are looked for: magnitudes, all > 0.
-  double lean_limit;   // rad  < pi/2
-  double steer_limit;  // rad  < pi; the geometry ends earlier
-  double offset_limit; // m
-  double speed_limit;  // m/s
+  // Where solutions are looked for: magnitudes.
+  double lean_limit;   // rad  > 0, < pi/2
+  double steer_limit;  // rad  > 0, < pi; the geometry ends earlier
+  double offset_limit; // m    0: by the bicycle's size, bike_turn_limits
+  double speed_limit;  // m/s  0: likewise
 } bike_turn_def;
 
 enum { BIKE_MAX_TURNS = 64 };
@@ -76,9 +76,14 @@ typedef struct bike_turns {
   double residual; // where NO_CONVERGENCE: the accelerations, rad/s^2, that could not be removed
 } bike_turns;
 
-// Nothing given, no torque; the whole range: lean to 80 deg, steer to 130 deg, offsets to 1 m,
-// speeds to 50 m/s.
+// Nothing given, no torque; the whole range: lean to 80 deg, steer to 130 deg, offsets and speeds by
+// the bicycle's size.
 BIKE_API bike_turn_def bike_default_turn_def(void);
+
+// `def` with the limits that 0 stands for: offsets to 1 m and speeds to 50 m/s where the reach of
+// the model is 1 m to 4 m, as that of all bicycles that people ride. Where it is 4^k times that,
+// 4^k m and 2^k 50 m/s, those of the similar bicycle.
+BIKE_API bike_turn_def bike_turn_limits(const bike_turn_def *def, const bike_model *model);
 
 // All stationary motions within the limits that have what is given.
 //
