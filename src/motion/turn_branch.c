@@ -42,6 +42,18 @@ static int append(turn_branch *b, const turn_point *point) {
   return BIKE_OK;
 }
 
+// Beside a place where v^2 sin(steer) is infinite, with a wheel turned across, two arcs come so close
+// that a step may leave one for the other. Their last coordinates differ in sign, and so does what
+// they multiply; where a branch passes zero speed that keeps its sense.
+static bool jumps(const turn_curve *curve, const turn_point *from, const turn_point *to) {
+  if (curve->at_speed || (from->y[Y_LAST] < 0) == (to->y[Y_LAST] < 0)) return false;
+  double f[TURN_ROWS], a[TURN_ROWS][Y_SIZE], b[TURN_ROWS][Y_SIZE], sense = 0;
+  if (turn_curve_equations(f, a, curve, from->y) || turn_curve_equations(f, b, curve, to->y))
+    return true;
+  for (int i = 0; i < TURN_ROWS; i++) sense += a[i][Y_LAST] * b[i][Y_LAST];
+  return sense < 0;
+}
+
 // One step of a length; false where it must be shorter.
 static bool step(turn_point *out, const turn_curve *curve, newton *solver, const turn_point *from,
                  double length) {
@@ -53,6 +65,7 @@ static bool step(turn_point *out, const turn_curve *curve, newton *solver, const
   for (int j = 0; j < Y_SIZE; j++) cosine += from->along[j] * next.along[j];
   if (!(cosine >= SMALLEST_COSINE) || !(distance(target, next.y) <= LARGEST_MISS * length))
     return false;
+  if (jumps(curve, from, &next)) return false;
   *out = next;
   return true;
 }

@@ -52,6 +52,10 @@ static bool changes(double a, double b) {
   return (a < 0) != (b < 0);
 }
 
+static double product(const double a[Y_SIZE], const double b[Y_SIZE]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 // The branch's point at a distance along from's tangent.
 static bool point_at(turn_point *out, const turn_piece *p, double reached, double length) {
   turn_point at;
@@ -110,6 +114,13 @@ static bool has_fold(const turn_piece *p, bike_turn_variable variable) {
   return variable != BIKE_TURN_SPEED || !(p->straight || changes(a[Y_STEER], b[Y_STEER]));
 }
 
+// Where the slope is nothing but rounding the branch is level: no fold.
+static bool is_level(const turn_piece *p, bike_turn_variable variable) {
+  const double level = 1e-9; // tangents have length one, and are right to some 1e-12
+  return fabs(turn_curve_slope(p->curve, p->from, variable)) <= level &&
+         fabs(turn_curve_slope(p->curve, p->to, variable)) <= level;
+}
+
 // A fold of v^2 sin(steer) as the function sees it: the slope before it, in the variable itself.
 static bool rises(const turn_piece *p, bike_turn_variable variable) {
   return turn_curve_slope(p->curve, p->from, variable) > 0;
@@ -117,7 +128,7 @@ static bool rises(const turn_piece *p, bike_turn_variable variable) {
 
 static int fold(turn_event *out, const turn_piece *p, bike_turn_variable variable) {
   bool found;
-  if (!has_fold(p, variable)) return 0;
+  if (!has_fold(p, variable) || is_level(p, variable)) return 0;
   if (!event_between(&out->at, &found, p,
                      (event_question){.function = slope, .variable = variable}))
     return 0;
