@@ -92,36 +92,48 @@ static int in_plane(double *f, double J[NEWTON_MAX][NEWTON_MAX], const double *y
   return BIKE_OK;
 }
 
-// What Newton's method may leave is rounding, of the terms and of the coordinates, which slopes
-// carry on where the geometry nearly ends. Solutions themselves are judged again.
-static int solved(bool *out, const turn_curve *c, const double y[Y_SIZE], double residual) {
-  const double rounding = 64 * DBL_EPSILON;
+// Whether what Newton's method has left is no more than a share of the terms and of what the
+// coordinates change, which slopes carry on where the geometry nearly ends.
+static int solved(bool *out, const turn_curve *c, const double y[Y_SIZE], double residual,
+                  double share) {
   double offset = turn_curve_offset(c, y), f[TURN_ROWS], J[TURN_ROWS][Y_SIZE], slopes = 0;
   turn_forces at;
   int code = turn_forces_at(&at, c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
   if (code) return code;
   double terms = turn_row_terms(c->bicycle, turn_moments(c->bicycle, &at, swept(c, y), offset));
-  *out = residual <= rounding * terms;
+  *out = residual <= share * terms;
   if (*out) return BIKE_OK;
   code = turn_curve_equations(f, J, c, y);
   for (int i = 0; i < TURN_ROWS && !code; i++)
     for (int j = 0; j < Y_SIZE; j++) slopes = fmax(slopes, fabs(J[i][j]) * fmax(1, fabs(y[j])));
-  *out = residual <= rounding * (terms + slopes);
+  *out = residual <= share * (terms + slopes);
   return code;
 }
 
-int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
-                       const turn_point *from, double distance) {
+static int correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
+                   const turn_point *from, double distance, double share) {
   plane_question question = {curve, from, distance};
   turn_point found = *out;
   bool good;
   if (newton_solve(solver, found.y, residual, in_plane, &question)) return BIKE_ERROR_GEOMETRY;
-  int code = solved(&good, curve, found.y, *residual);
+  int code = solved(&good, curve, found.y, *residual, share);
   if (code) return code;
   if (!good) return BIKE_ERROR_NO_CONVERGENCE;
   code = turn_curve_tangent(found.along, curve, found.y, from->along);
   if (!code) *out = found;
   return code;
+}
+
+int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
+                       const turn_point *from, double distance) {
+  const double rounding = 64 * DBL_EPSILON; // a few were measured, or far above this
+  return correct(out, residual, curve, solver, from, distance, rounding);
+}
+
+int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
+                               newton *solver, const turn_point *from, double distance) {
+  // where branches cross, Newton's method gains but one bit in an iteration: 1e-11 was met
+  return correct(out, residual, curve, solver, from, distance, 1e-10);
 }
 
 double turn_curve_beyond(const turn_curve *c, const turn_point *at, bike_turn_variable variable,

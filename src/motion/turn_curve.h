@@ -40,6 +40,11 @@ int turn_curve_equations(double f[TURN_ROWS], double J[TURN_ROWS][Y_SIZE], const
 int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
                        const turn_point *from, double distance);
 
+// The same between two points of the branch, near which it is known to be: more may be left, as
+// what is found is improved and judged again.
+int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
+                               newton *solver, const turn_point *from, double distance);
+
 // The unit tangent at y, with a positive product with `direction`.
 int turn_curve_tangent(double along[Y_SIZE], const turn_curve *curve, const double y[Y_SIZE],
                        const double direction[Y_SIZE]);

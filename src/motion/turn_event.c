@@ -61,7 +61,7 @@ static bool point_at(turn_point *out, const turn_piece *p, double reached, doubl
   turn_point at;
   for (int j = 0; j < Y_SIZE; j++)
     at.y[j] = p->from->y[j] + (p->to->y[j] - p->from->y[j]) * (reached / length);
-  if (turn_curve_correct(&at, p->residual, p->curve, p->solver, p->from, reached))
+  if (turn_curve_correct_between(&at, p->residual, p->curve, p->solver, p->from, reached))
     return false;
   *out = at;
   return true;

@@ -3,6 +3,7 @@
 //   fall_steer(w) sweep_lean(w) - fall_lean(w) sweep_steer(w) = 0,
 // a cubic in the rider's offset w.
 #include <bicycle/error.h>
+#include <float.h>
 #include <math.h>
 
 #include "motion/turn_family.h"

@@ -11,6 +11,7 @@
 #include "motion/turn_seed.h"
 #include "motion/turn_solution.h"
 #include "motion/turn_straight.h"
+#include "motion/turn_terms.h"
 
 // An enumeration under way.
 typedef struct search {
@@ -59,13 +60,25 @@ int turn_keep(bike_turn *list, int *count, const bike_turn *turn) {
   return BIKE_OK;
 }
 
+// Whether a speed, of either sign, is rounding where the bicycle stands still: a small one whose
+// circle asks nothing either. With a wheel turned across the smallest speed asks much.
+static bool stands_still(const search *s, const turn_place *at) {
+  const double standing = 1e-12; // units of length, v^2/g; share of the terms
+  const turn_bicycle *bicycle = s->curve.bicycle;
+  turn_forces forces;
+  if (!(fabs(at->square) <= standing)) return false;
+  if (turn_forces_at(&forces, bicycle, at->lean, at->steer, at->offset)) return false;
+  double asked = gravity(s) * at->square * sin(at->steer);
+  double terms = turn_row_terms(bicycle, turn_moments(bicycle, &forces, 0, at->offset));
+  return fabs(asked * forces.sweep[TURN_STEER_ROW]) <= standing * terms &&
+         fabs(asked * forces.sweep[TURN_LEAN_ROW]) <= standing * terms;
+}
+
 // Describes a place and keeps it in a list.
 static int collect(search *s, bike_turn *list, int *count, const turn_place *near,
                    const turn_event *event) {
-  const double standing =
-      1e-12; // m, v^2/g: rounding, of either sign, where the bicycle stands still
   turn_place at = *near;
-  if (fabs(at.square) <= standing) at.square = 0;
+  if (stands_still(s, &at)) at.square = 0;
   if (!inside(s, &at)) return BIKE_OK;
   bike_turn turn;
   int code = turn_describe(&turn, s->curve.bicycle, &at);

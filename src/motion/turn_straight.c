@@ -2,10 +2,13 @@
 #include "motion/turn_straight.h"
 
 #include <bicycle/error.h>
+#include <float.h>
 #include <math.h>
 
+#include "motion/turn_terms.h"
+
 int turn_straight_offset(bool *rides, double *offset, const turn_bicycle *bicycle, double lean) {
-  const double rounding = 1e-11; // rad/s^2, as of solutions
+  const double rounding = 16 * DBL_EPSILON; // of the terms, as of solutions
   turn_forces at[2];
   *rides = false;
   for (int k = 0; k < 2; k++) {
@@ -16,8 +19,9 @@ int turn_straight_offset(bool *rides, double *offset, const turn_bicycle *bicycl
   const double *a = at[0].fall, *b = at[1].fall;
   double per_offset = b[TURN_LEAN_ROW] - a[TURN_LEAN_ROW];
   *offset = per_offset != 0 ? -a[TURN_LEAN_ROW] / per_offset : 0;
+  double terms = turn_row_terms(bicycle, turn_moments(bicycle, &at[0], 0, *offset));
   for (int i = 0; i < TURN_ROWS; i++)
-    if (!(fabs(a[i] + *offset * (b[i] - a[i])) <= rounding)) return BIKE_OK;
+    if (!(fabs(a[i] + *offset * (b[i] - a[i])) <= rounding * terms)) return BIKE_OK;
   *rides = true;
   return BIKE_OK;
 }
