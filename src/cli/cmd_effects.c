@@ -23,7 +23,7 @@ static const char documentation[] =
 
 typedef struct arguments {
   const char *file;
-  double search[2]; // m/s
+  double search[2]; // m/s  NaN: by the bicycle's size
   double speed;     // m/s  of the lean per rider offset; NaN: the middle of the stable range
   bool json;
 } arguments;
@@ -51,7 +51,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 }
 
 static const struct argp_option options[] = {
-    {"search", KEY_SEARCH, "LO:HI", 0, "Where to look for critical speeds, m/s (0:40)", 1},
+    {"search", KEY_SEARCH, "LO:HI", 0,
+     "Where to look for critical speeds, m/s (0:40, of very small or large bicycles by their size)",
+     1},
     {"speed", KEY_SPEED, "V", 0,
      "Speed of the lean per rider offset, m/s (the middle of the stable range)", 1},
     {"json", KEY_JSON, NULL, 0, "Print one JSON document", 8},
@@ -192,14 +194,14 @@ static bool print_tables(const effects_list *list) {
 int cmd_effects(int argc, char **argv) {
   const struct argp_child children[] = {{&term_file_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
-  arguments args = {.search = {0, 40}, .speed = NAN};
+  arguments args = {.search = {NAN, NAN}, .speed = NAN};
   term_parse(&argp, example, argc, argv, &args);
 
   effects_list *list = calloc(1, sizeof *list);
   if (!list) return term_fail_bike(BIKE_ERROR_MEMORY, args.file);
   term_exit code = term_load_file(&list->file, args.file);
   if (code == TERM_DONE) {
-    int error = effects_list_make(list, args.search, args.speed);
+    int error = effects_list_make(list, isnan(args.search[0]) ? NULL : args.search, args.speed);
     if (!error && !(args.json ? print_json(list) : print_tables(list))) error = BIKE_ERROR_MEMORY;
     if (error) code = term_fail_bike(error, args.file);
   }

@@ -67,8 +67,8 @@ static term_exit check_range(const bike_turn_def *def) {
   for (int v = 0; v < BIKE_TURN_VARIABLES; v++)
     if (def->given[v] && fabs(def->value[v]) > range[v].limit)
       return term_fail(TERM_USAGE, "%s: %g %s is beyond the range of the search, %g %s%s", names[v],
-                       def->value[v] / range[v].unit, range[v].name,
-                       range[v].limit / range[v].unit, range[v].name, range[v].hint);
+                       def->value[v] / range[v].unit, range[v].name, range[v].limit / range[v].unit,
+                       range[v].name, range[v].hint);
   return TERM_DONE;
 }
 

@@ -42,9 +42,9 @@ static int append(turn_branch *b, const turn_point *point) {
   return BIKE_OK;
 }
 
-// Beside a place where v^2 sin(steer) is infinite, with a wheel turned across, two arcs come so close
-// that a step may leave one for the other. Their last coordinates differ in sign, and so does what
-// they multiply; where a branch passes zero speed that keeps its sense.
+// Beside a place where v^2 sin(steer) is infinite, with a wheel turned across, two arcs come so
+// close that a step may leave one for the other. Their last coordinates differ in sign, and so does
+// what they multiply; where a branch passes zero speed that keeps its sense.
 static bool jumps(const turn_curve *curve, const turn_point *from, const turn_point *to) {
   if (curve->at_speed || (from->y[Y_LAST] < 0) == (to->y[Y_LAST] < 0)) return false;
   double f[TURN_ROWS], a[TURN_ROWS][Y_SIZE], b[TURN_ROWS][Y_SIZE], sense = 0;

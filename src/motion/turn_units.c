@@ -4,11 +4,19 @@
 #include <math.h>
 #include <stddef.h>
 
-turn_units turn_units_of(const bike_model *model) {
-  // 4^k between half and twice a reach of 2 m, that of a bicycle with wheels of 0.3 m
+// The exponent of two of the unit of time, and half that of the unit of length.
+static int size_of(const bike_model *model) {
+  // 4^k m between half and twice a reach of 2 m, that of a bicycle with wheels of 0.3 m
   const double usual = 2;
-  int k = (int)round(0.5 * log2(model->reach / usual));
-  return (turn_units){.length = ldexp(1, 2 * k), .time = ldexp(1, k)};
+  return (int)round(0.5 * log2(model->reach / usual));
+}
+
+double bike_length_unit(const bike_model *model) {
+  return ldexp(1, 2 * size_of(model));
+}
+
+turn_units turn_units_of(const bike_model *model) {
+  return (turn_units){.length = bike_length_unit(model), .time = ldexp(1, size_of(model))};
 }
 
 static void divide_body(bike_body *body, double length) {

@@ -42,7 +42,8 @@ typedef struct bike_turn {
   double rear_normal, front_normal; // N  a wheel that is pulled on (< 0) has lifted: outside the
                                     //    model
   double rear_friction, front_friction; // horizontal / normal force that the ground must hold
-  double residual;         // rad/s^2, m/s^2  largest acceleration left at these numbers
+  double residual;         // rad/s^2 largest acceleration left at these numbers, the speed's over
+                           //         the length unit
   bool main_family;        //        see below
   bike_turn_mark mark;     //
   bike_turn_variable fold; //        of LARGEST and SMALLEST
@@ -76,13 +77,17 @@ typedef struct bike_turns {
   double residual; // where NO_CONVERGENCE: the accelerations, rad/s^2, that could not be removed
 } bike_turns;
 
-// Nothing given, no torque; the whole range: lean to 80 deg, steer to 130 deg, offsets and speeds by
-// the bicycle's size.
+// Nothing given, no torque; the whole range: lean to 80 deg, steer to 130 deg, offsets and speeds
+// by the bicycle's size.
 BIKE_API bike_turn_def bike_default_turn_def(void);
 
-// `def` with the limits that 0 stands for: offsets to 1 m and speeds to 50 m/s where the reach of
-// the model is 1 m to 4 m, as that of all bicycles that people ride. Where it is 4^k times that,
-// 4^k m and 2^k 50 m/s, those of the similar bicycle.
+// A length to measure a bicycle's by, m: 1 where the reach of the model is 1 m to 4 m, as that of
+// all bicycles that people ride, 4^k where it is 4^k times that.
+BIKE_API double bike_length_unit(const bike_model *model);
+
+// `def` with the limits that 0 stands for: offsets to 1 m and speeds to 50 m/s where the length
+// unit is 1 m; offsets to 4^k m and speeds to 2^k 50 m/s, those of the similar bicycle, where it is
+// 4^k m.
 BIKE_API bike_turn_def bike_turn_limits(const bike_turn_def *def, const bike_model *model);
 
 // All stationary motions within the limits that have what is given.
