@@ -2,7 +2,6 @@
 #include "motion/turn_curve.h"
 
 #include <bicycle/error.h>
-#include <float.h>
 #include <math.h>
 
 #include "motion/turn_terms.h"
@@ -92,22 +91,16 @@ static int in_plane(double *f, double J[NEWTON_MAX][NEWTON_MAX], const double *y
   return BIKE_OK;
 }
 
-// Whether what Newton's method has left is no more than a share of the terms and of what the
-// coordinates change, which slopes carry on where the geometry nearly ends.
+// Whether what Newton's method has left is no more than a share of the terms.
 static int solved(bool *out, const turn_curve *c, const double y[Y_SIZE], double residual,
                   double share) {
-  double offset = turn_curve_offset(c, y), f[TURN_ROWS], J[TURN_ROWS][Y_SIZE], slopes = 0;
+  double offset = turn_curve_offset(c, y);
   turn_forces at;
   int code = turn_forces_at(&at, c->bicycle, y[Y_LEAN], y[Y_STEER], offset);
   if (code) return code;
-  double terms = turn_row_terms(c->bicycle, turn_moments(c->bicycle, &at, swept(c, y), offset));
-  *out = residual <= share * terms;
-  if (*out) return BIKE_OK;
-  code = turn_curve_equations(f, J, c, y);
-  for (int i = 0; i < TURN_ROWS && !code; i++)
-    for (int j = 0; j < Y_SIZE; j++) slopes = fmax(slopes, fabs(J[i][j]) * fmax(1, fabs(y[j])));
-  *out = residual <= share * (terms + slopes);
-  return code;
+  double moments = turn_moments(c->bicycle, &at, swept(c, y), offset);
+  *out = residual <= share * turn_row_terms(c->bicycle, moments);
+  return BIKE_OK;
 }
 
 static int correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
@@ -126,8 +119,8 @@ static int correct(turn_point *out, double *residual, const turn_curve *curve, n
 
 int turn_curve_correct(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
                        const turn_point *from, double distance) {
-  const double rounding = 64 * DBL_EPSILON; // a few were measured, or far above this
-  return correct(out, residual, curve, solver, from, distance, rounding);
+  // some roundings, and more where slopes carry on those of the coordinates; or far above this
+  return correct(out, residual, curve, solver, from, distance, 1e-12);
 }
 
 int turn_curve_correct_between(turn_point *out, double *residual, const turn_curve *curve,
