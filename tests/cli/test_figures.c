@@ -247,6 +247,33 @@ static void effects_carry_uncertainty(void **state) {
   json_decref(document);
 }
 
+// The benchmark 1024 times smaller, of the same masses: speeds are 32 times lower, and so are those
+// after changes as much smaller. (Trails change by a centimetre, the damping by one N m s.)
+static void effects_follow_the_size(void **state) {
+  (void)state;
+  run_well("awk '/^ +[A-Za-z]+: [-0-9.e]+/ {sub(\":\",\"\",$1); f = 1;"
+           "if ($1 ~ /^(w|c|r[RF]|[xz][BH])$/) f = 1024; if ($1 ~ /^I/) f = 1024*1024;"
+           "printf \"%s = %.17g\\n\", $1, $2/f}' "
+           "\"" BICYCLE_SOURCE_DIR "/model/benchmark/benchmark.yml\" > small.txt");
+  json_t *usual = run_json("bicycle effects benchmark --json");
+  json_t *small = run_json("bicycle effects small.txt --json");
+  const double slower = 1.0 / 32;
+  assert_near(run_number(small, "weave_speed"), slower * run_number(usual, "weave_speed"), 1e-10);
+  const json_t *are = json_object_get(small, "effects");
+  const json_t *should = json_object_get(usual, "effects");
+  assert_int_equal(json_array_size(are), json_array_size(should));
+  int compared = 0;
+  for (size_t i = 0; i < json_array_size(should); i++) {
+    const json_t *a = json_array_get(are, i), *b = json_array_get(should, i);
+    if (!json_is_number(json_object_get(b, "weave_speed"))) continue;
+    assert_near(run_number(a, "weave_speed"), slower * run_number(b, "weave_speed"), 1e-10);
+    compared++;
+  }
+  assert_true(compared >= 6);
+  json_decref(usual);
+  json_decref(small);
+}
+
 static void basin_draws_and_counts(void **state) {
   (void)state;
   json_t *document = run_json("bicycle basin roadster --speed 5.8 --leans -30deg:30deg:5 "
@@ -343,6 +370,7 @@ int main(void) {
       cmocka_unit_test(a_bicycle_without_rider_has_two_figures),
       cmocka_unit_test(effects_tell_what_is_held),
       cmocka_unit_test(effects_carry_uncertainty),
+      cmocka_unit_test(effects_follow_the_size),
       cmocka_unit_test(basin_draws_and_counts),
       cmocka_unit_test(no_stable_range_is_an_answer),
       cmocka_unit_test(wrong_command_lines),

@@ -190,6 +190,27 @@ static void linear_without_a_rider(void **unused) {
   }
 }
 
+// What lies beyond the usual range can be asked for.
+static void limits_are_options(void **unused) {
+  (void)unused;
+  run_result usual = run_command("bicycle turn roadster --speed 60 --lean 0.1");
+  assert_int_equal(usual.status, 2);
+  assert_non_null(strstr(usual.err, "see --speed-limit"));
+  run_free(&usual);
+  json_t *turns = run_json("bicycle turn roadster --speed 60 --lean 0.1 --speed-limit 70 "
+                           "--offset-limit 2 --json");
+  assert_near(run_number(solution(turns, 0), "speed"), 60, 0);
+  json_decref(turns);
+  static const char *const wrong[] = {"bicycle turn roadster --speed 5 --speed-limit 0",
+                                      "bicycle turn roadster --speed 5 --offset-limit -1",
+                                      "bicycle turn roadster --speed 5 --speed-limit 4"};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    run_result result = run_command(wrong[i]);
+    if (result.status != 2) fail_msg("%s: %d", wrong[i], result.status);
+    run_free(&result);
+  }
+}
+
 static void help_starts_with_an_example(void **unused) {
   (void)unused;
   static const char start[] = "Example: bicycle turn ";
@@ -222,6 +243,7 @@ int main(void) {
       cmocka_unit_test(a_capsize_speed_is_neutral),
       cmocka_unit_test(linear_without_a_rider),
       cmocka_unit_test(help_starts_with_an_example),
+      cmocka_unit_test(limits_are_options),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }
