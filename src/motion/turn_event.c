@@ -52,10 +52,6 @@ static bool changes(double a, double b) {
   return (a < 0) != (b < 0);
 }
 
-static double product(const double a[Y_SIZE], const double b[Y_SIZE]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // The branch's point at a distance along from's tangent.
 static bool point_at(turn_point *out, const turn_piece *p, double reached, double length) {
   turn_point at;
