@@ -8,7 +8,7 @@
 #include "motion/turn_terms.h"
 
 int turn_straight_offset(bool *rides, double *offset, const turn_bicycle *bicycle, double lean) {
-  const double rounding = 16 * DBL_EPSILON; // of the terms, as of solutions
+  const double rounding = 64 * DBL_EPSILON; // of the terms, as of solutions
   turn_forces at[2];
   *rides = false;
   for (int k = 0; k < 2; k++) {
