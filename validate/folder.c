@@ -42,41 +42,20 @@ term_exit folder_check(const char *path, problem *p) {
   return code;
 }
 
-// What ends a program from outside and can be made to wait.
-static sigset_t ending_signals(void) {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, SIGHUP);
-  sigaddset(&set, SIGQUIT);
-  return set;
-}
-
-bool folder_is_interrupted(void) {
-  const sigset_t ending = ending_signals();
-  sigset_t waiting, both;
-  sigemptyset(&waiting);
-  sigpending(&waiting);
-  sigandset(&both, &waiting, &ending);
-  return !sigisemptyset(&both);
-}
-
 // From here on signals end the program again; one that has waited does so now.
 static void forget(folder *f) {
   const sigset_t before = f->signals;
   free(f->target);
   free(f->aside);
   *f = (folder){0};
-  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  term_release_signals(&before);
 }
 
 term_exit folder_begin(folder *out, const char *path, problem *p) {
   *out = (folder){0};
   term_exit code = folder_check(path, p);
   if (code != TERM_DONE) return code;
-  const sigset_t ending = ending_signals();
-  pthread_sigmask(SIG_BLOCK, &ending, &out->signals);
+  term_hold_signals(&out->signals);
   out->target = term_place_of(path);
   out->aside = out->target ? term_place_aside(out->target, "tmp") : NULL;
   if (out->aside) folder_content_remove(out->aside); // of a killed process with our number

@@ -5,8 +5,8 @@
 #define VALIDATE_FOLDER_H
 
 #include "problem.h"
+#include "terminal/hold.h"
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -27,9 +27,6 @@ term_exit folder_begin(folder *out, const char *path, problem *p);
 // Opens a new file in it; close it with folder_close. NULL on failure.
 FILE *folder_open(const folder *f, const char *name, problem *p);
 term_exit folder_close(FILE *stream, const char *name, problem *p);
-
-// Whether a signal waits to end the program: what follows need not be written.
-bool folder_is_interrupted(void);
 
 term_exit folder_commit(folder *f, problem *p);
 

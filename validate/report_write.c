@@ -70,9 +70,9 @@ term_exit report_write(const report *r, const json_t *document, const char *path
   term_exit code = folder_begin(&f, path, p);
   if (code != TERM_DONE) return code;
   for (size_t i = 0; i < r->count && code == TERM_DONE; i++)
-    code = folder_is_interrupted() ? interrupted(p) : write_scenario(&f, &r->comparisons[i], p);
+    code = term_signal_waits() ? interrupted(p) : write_scenario(&f, &r->comparisons[i], p);
   for (int i = 0; i < REPORT_VIEWS && code == TERM_DONE; i++)
-    code = folder_is_interrupted() ? interrupted(p) : write_view(&f, r, document, i, p);
+    code = term_signal_waits() ? interrupted(p) : write_view(&f, r, document, i, p);
   if (code == TERM_DONE) return folder_commit(&f, p);
   folder_abort(&f);
   return problem_prefix(p, code, path);

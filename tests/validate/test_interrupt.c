@@ -26,7 +26,7 @@ typedef void writer(folder *f, int number);
 
 static void be_stopped(folder *f, int number) {
   raise(number);
-  if (folder_is_interrupted()) folder_abort(f);
+  if (term_signal_waits()) folder_abort(f);
 }
 
 static void be_late(folder *f, int number) {
@@ -41,7 +41,7 @@ static void write_and(writer *rest, const char *target, int number) {
   if (folder_begin(&f, target, &p) != TERM_DONE) _exit(8);
   FILE *stream = folder_open(&f, "report.json", &p);
   if (!stream || fputs("{}", stream) < 0) _exit(8);
-  if (folder_is_interrupted()) _exit(7);
+  if (term_signal_waits()) _exit(7);
   folder_close(stream, "report.json", &p);
   rest(&f, number);
   _exit(9);
