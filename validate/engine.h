@@ -92,6 +92,9 @@ typedef struct engine {
   bool takes_input;             // rides of it need not be hands off
   bool alone;                   // it changes what is process-global: nothing is played beside it
 
+  // Looks through what the engine is given from outside, before anything is played. NULL: nothing.
+  term_exit (*check)(const engine_choice *choice, const engine_ride *ride, problem *p);
+
   // An instance for a bicycle. NULL with a problem and its exit code in `code` otherwise.
   void *(*create)(const bike_bicycle *bicycle, const engine_choice *choice, term_exit *code,
                   problem *p);

@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 // Within this share of the sample two times are one: recorders write decimals, or sums of them.
 static const double same_time = 1e-6;
@@ -123,7 +124,7 @@ static void version(char out[ENGINE_VERSION_SIZE]) {
 // A ride under way: what is left of the file.
 typedef struct playing {
   recording *r;
-  trace *out;
+  trace *out; // NULL: only to see whether it can be played
   const engine_ride *asked;
   double numbers[BIKE_CSV_COLUMNS]; // the row last read
   double time, before;              // s  of it, and of the one before
@@ -137,6 +138,10 @@ static double value_of(const playing *g, const source *s) {
 }
 
 static term_exit record(playing *g) {
+  if (!g->out) {
+    g->next++;
+    return TERM_DONE;
+  }
   trace_row row = {.sample.time = (double)g->next * g->asked->sample};
   for (int i = 0; i < g->r->signal_count; i++) {
     double value = value_of(g, &g->r->signals[i]);
@@ -183,6 +188,7 @@ static term_exit end(playing *g, problem *p) {
                        g->r->path, g->rows == 1 ? "is" : "are", g->rows);
   if (g->next == 0) note_gap(g);
   if (*g->gap.text) return problem_set(p, TERM_USAGE, "%s", g->gap.text);
+  if (!g->out) return TERM_DONE;
   bool complete = g->next > g->last;
   g->out->ending = "end of the recording";
   trace_end(g->out, complete, complete ? g->asked->duration : g->time, NULL, 0);
@@ -201,17 +207,10 @@ static term_exit play(playing *g, problem *p) {
   }
 }
 
-static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
-  recording *r = instance;
+// From its first row to its last; `out` as of `playing`.
+static term_exit play_all(trace *out, recording *r, const engine_ride *asked, problem *p) {
   term_exit code = r->reader.stream ? TERM_DONE : open_file(r, p);
   if (code != TERM_DONE) return code;
-  out->missing = (UINT64_C(1) << TRACE_SIGNAL_COUNT) - 1;
-  for (int i = 0; i < r->signal_count; i++)
-    out->missing &= ~(UINT64_C(1) << (r->signals[i].signal - trace_signals));
-  out->has_contacts = trace_has(out, trace_find_signal("rear_slip")) &&
-                      trace_has(out, trace_find_signal("front_slip")) &&
-                      trace_has(out, trace_find_signal("rear_height")) &&
-                      trace_has(out, trace_find_signal("front_height"));
   playing g = {.r = r, .out = out, .asked = asked};
   g.last = (long)floor(asked->duration / asked->sample * (1 + 1e-12));
   code = play(&g, p);
@@ -219,11 +218,41 @@ static term_exit ride(trace *out, void *instance, const engine_ride *asked, prob
   return code;
 }
 
+static bool can_be_read_twice(const char *path) {
+  struct stat status;
+  return stat(path, &status) != 0 || S_ISREG(status.st_mode); // what is missing is told
+}
+
+// All of it, so that a wrong row is told before anything is played. It is read again to be played,
+// which a pipe cannot be.
+static term_exit check(const engine_choice *choice, const engine_ride *asked, problem *p) {
+  term_exit code = TERM_DONE;
+  if (!can_be_read_twice(choice->file)) return code;
+  recording *r = create(NULL, choice, &code, p);
+  if (!r) return code;
+  code = play_all(NULL, r, asked, p);
+  free_recording(r);
+  return code;
+}
+
+static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
+  recording *r = instance;
+  out->missing = (UINT64_C(1) << TRACE_SIGNAL_COUNT) - 1;
+  for (int i = 0; i < r->signal_count; i++)
+    out->missing &= ~(UINT64_C(1) << (r->signals[i].signal - trace_signals));
+  out->has_contacts = trace_has(out, trace_find_signal("rear_slip")) &&
+                      trace_has(out, trace_find_signal("front_slip")) &&
+                      trace_has(out, trace_find_signal("rear_height")) &&
+                      trace_has(out, trace_find_signal("front_height"));
+  return play_all(out, r, asked, p);
+}
+
 const engine engine_file = {
     .name = "file",
     .summary = "a ride recorded in a CSV file by any other simulator",
     .plays_file = true,
     .takes_input = true, // of which the recording is what came
+    .check = check,
     .create = create,
     .free = free_recording,
     .version = version,

@@ -24,6 +24,17 @@ static term_exit check_names(const suite *s, problem *p) {
   return TERM_DONE;
 }
 
+// What others have recorded is looked through before anything is played, lest a wrong row is told
+// when all scenarios before its own are done.
+static term_exit check_recordings(const scenario *s, problem *p) {
+  const engine_choice *choices[2] = {&s->reference, &s->candidate};
+  const engine_ride ride = {.duration = s->duration, .sample = s->sample};
+  term_exit code = TERM_DONE;
+  for (int i = 0; i < 2 && code == TERM_DONE; i++)
+    if (choices[i]->engine->check) code = choices[i]->engine->check(choices[i], &ride, p);
+  return code == TERM_DONE ? code : problem_prefix(p, code, s->name);
+}
+
 static term_exit read_suite(suite *out, char *const *paths, size_t count, problem *p) {
   *out = (suite){calloc(count, sizeof *out->scenarios), calloc(count, sizeof *out->comparisons),
                  count};
@@ -31,6 +42,8 @@ static term_exit read_suite(suite *out, char *const *paths, size_t count, proble
   for (size_t i = 0; i < count && code == TERM_DONE; i++)
     code = scenario_read(&out->scenarios[i], paths[i], p);
   if (code == TERM_DONE) code = check_names(out, p);
+  for (size_t i = 0; i < count && code == TERM_DONE; i++)
+    code = check_recordings(&out->scenarios[i], p);
   if (code != TERM_DONE) suite_clear(out);
   return code;
 }

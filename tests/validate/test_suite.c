@@ -109,6 +109,37 @@ static void test_first_problem_is_told(void **state) {
   }
 }
 
+// What is wrong with a recording is told when the suite is read, before a scenario that stands
+// first is played, which would fail; and of the file and line.
+static void test_recordings_are_read_first(void **state) {
+  (void)state;
+  static const struct {
+    const char *csv, *says; // NULL: nothing
+  } cases[] = {
+      {"time,lean\n0,0\n0.01,x\n", "ride.csv:3: lean: 'x' is not a number"},
+      {"time,lean\n0,0\n0.02,0\n0.01,0\n", "ride.csv:4: time: the time does not rise"},
+      {"time,lean\n0,0\n0.01,0\n0.03,0\n", "ride.csv:4: there is no row at 0.02 s"},
+      {"time,lean\n0,0\n0.01,0\n", NULL}, // a ride that ended early
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char *paths[2];
+    problem p = {""};
+    suite s;
+    write_variant(paths, 0, (variant){"misfit", "sample: 0.01", "sample: 0.0125"});
+    write_variant(paths, 1,
+                  (variant){"recorded", "{engine: mujoco}", "{engine: file, file: ride.csv}"});
+    free(support_write(support_home, "ride.csv", cases[i].csv));
+    term_exit code = suite_load(&s, paths, 2, &p);
+    assert_int_equal(code, cases[i].says ? TERM_USAGE : TERM_DONE);
+    if (cases[i].says) {
+      assert_ptr_equal(strstr(p.text, "recorded: "), p.text);
+      if (!strstr(p.text, cases[i].says)) fail_msg("%s", p.text);
+    }
+    suite_clear(&s);
+    for (int k = 0; k < 2; k++) free(paths[k]);
+  }
+}
+
 //---------------------------------- faults of the whole process -----------------------------------
 
 static atomic_int riding, disturbed;
@@ -157,6 +188,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(test_report_is_that_of_one_thread, support_enter,
                                       support_leave),
       cmocka_unit_test_setup_teardown(test_first_problem_is_told, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_recordings_are_read_first, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_alone_disturbs_nobody, support_enter, support_leave),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
