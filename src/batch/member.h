@@ -6,8 +6,8 @@
 
 #include <bicycle/ensemble.h>
 
-// Straight riding is looked for this often, and must have been seen so many times in a row: from the
-// first look to the last a second, which cannot be a passage of an oscillation.
+// Straight riding is looked for this often, and must have been seen so many times in a row: from
+// the first look to the last a second, which cannot be a passage of an oscillation.
 static const double MEMBER_LOOK = 0.05; // s
 enum { MEMBER_LOOKS_SETTLED = 21 };
 
