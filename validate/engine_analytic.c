@@ -5,6 +5,7 @@
 
 #include <bicycle/error.h>
 #include <bicycle/linear.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,12 +70,20 @@ static term_exit linearize(double A[16], void *instance, double speed, problem *
   return TERM_DONE;
 }
 
+// Where rides end (bike_event_kind's validity): rounding is a thousandfold there, and what engines
+// say of such a state tells nothing of either.
+static bool at_edge(const bike_snapshot *s) {
+  double edge = 1e-3 * (fabs(s->T_r) + fabs(s->T_f)), c = cos(s->phi_tilde);
+  return !(fmin(fabs(s->T_r * c - s->T_f), fabs(s->T_r - s->T_f * c)) > edge);
+}
+
 static term_exit evaluate(engine_instant *out, void *instance, const bike_state *state,
                           problem *p) {
   const analytic *a = instance;
   bike_snapshot s;
   int error = bike_evaluate(&s, &a->model, state, &(bike_input){0});
   if (error != BIKE_OK) return problem_set(p, term_exit_of(error), "%s", bike_error_string(error));
+  if (at_edge(&s)) return problem_set(p, TERM_USAGE, "at the edge of the geometry rides end");
   *out = (engine_instant){
       .lean_acceleration = s.acceleration.lean,
       .steer_acceleration = s.acceleration.steer,

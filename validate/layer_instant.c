@@ -205,7 +205,8 @@ static term_exit compare_all(extremes *out, comparison *c, problem *p) {
       return problem_set(p, TERM_USAGE, "instants: the bicycle can take up %d of %lld states",
                          found, (long long)draws);
     bike_state state = draw_state(&seed, range);
-    code = compare_at(out, &admissible, c, &state, p);
+    admissible = fabs(state.lean) < scenario_lean_limit(); // rides end there
+    if (admissible) code = compare_at(out, &admissible, c, &state, p);
     found += admissible;
   }
   return code;
