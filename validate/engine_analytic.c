@@ -5,6 +5,7 @@
 
 #include <bicycle/error.h>
 #include <bicycle/linear.h>
+#include <bicycle/ride.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -73,7 +74,7 @@ static term_exit linearize(double A[16], void *instance, double speed, problem *
 // Where rides end (bike_event_kind's validity): rounding is a thousandfold there, and what engines
 // say of such a state tells nothing of either.
 static bool at_edge(const bike_snapshot *s) {
-  double edge = 1e-3 * (fabs(s->T_r) + fabs(s->T_f)), c = cos(s->phi_tilde);
+  double edge = BIKE_EDGE * (fabs(s->T_r) + fabs(s->T_f)), c = cos(s->phi_tilde);
   return !(fmin(fabs(s->T_r * c - s->T_f), fabs(s->T_r - s->T_f * c)) > edge);
 }
 

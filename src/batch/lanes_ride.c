@@ -5,6 +5,7 @@
 #include "batch/lanes_instance.h"
 #include "motion/ride_table.h"
 
+#include <bicycle/ride.h>
 #include <math.h>
 
 // The first step, s; the error control finds the right one within two or three.
@@ -16,8 +17,6 @@ static const double SMALLEST_STEP = 1e-9;
 // A ride's end is found by going back before it and on in steps cut by this, until one so short, s,
 // leads there.
 static const double APPROACH = 0.25, RESOLUTION = 1e-9;
-// As the model's edge of a single ride (ride_event.c): this share of |T_r| + |T_f|.
-static const double EDGE = 1e-3;
 
 typedef struct book {
   size_t member;
@@ -103,8 +102,8 @@ __attribute__((noinline, flatten)) static void first_stage(trial *tr, real dy[LA
   instant now;
   tr->at_start = rates_in_lanes(dy, &now, p, p->y);
   const position *g = &now.at;
-  tr->inside = (g->D * p->side > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f))) &
-               (g->Q > EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f)));
+  tr->inside = (g->D * p->side > BIKE_EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f))) &
+               (g->Q > BIKE_EDGE * (lanes_abs(g->T_r) + lanes_abs(g->T_f)));
   start next = begun(&p->block.model, g->s_br, g->c_br);
   p->from.s = lanes_either(tr->at_start, next.s, p->from.s);
   p->from.c = lanes_either(tr->at_start, next.c, p->from.c);

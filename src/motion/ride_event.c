@@ -38,16 +38,14 @@ ride_side ride_side_of(const bike_snapshot *start) {
   return (ride_side){copysign(1, yaw_denominator(start)), copysign(1, pitch_denominator(start))};
 }
 
-// Where a denominator has fallen to this share of |T_r| + |T_f| the model is taken to end. Rates
+// Where a denominator has fallen to BIKE_EDGE of |T_r| + |T_f| the model is taken to end. Rates
 // err by some eps / share^2: nearer, an integrator at 1e-13 steps on that noise (in falls of the
 // roadster 1e3 steps to a share of 1e-3, 1e5 to 1e-4) and wheels lift by it. What is left of the
 // way was then 3e-4 s or less.
-static const double EDGE = 1e-3;
-
 static double validity(const ride_side *side, const bike_snapshot *now) {
   double scale = fabs(now->T_r) + fabs(now->T_f);
   double least = fmin(side->yaw * yaw_denominator(now), side->pitch * pitch_denominator(now));
-  return least - EDGE * scale;
+  return least - BIKE_EDGE * scale;
 }
 
 ride_indicators ride_indicate(const bike_ride_def *def, const ride_side *side, const ride_point *at,

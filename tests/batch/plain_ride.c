@@ -36,7 +36,7 @@ static bool is_at_edge(const bike_member *member, const bike_state *end) {
   if (bike_evaluate(&now, member->model, end, &member->input)) return true;
   double scale = fabs(now.T_r) + fabs(now.T_f), c = cos(now.phi_tilde);
   double yaw = fabs(now.T_r * c - now.T_f), pitch = fabs(now.T_r - now.T_f * c);
-  return fmin(yaw, pitch) < 1.01e-3 * scale;
+  return fmin(yaw, pitch) < 1.01 * BIKE_EDGE * scale;
 }
 
 plain_ride ride_plain(const bike_member *member, const bike_ensemble_def *def) {

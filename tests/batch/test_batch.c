@@ -7,8 +7,8 @@
 
 static const double DEGREE = M_PI / 180;
 
-// The same source, the same sines, and the compiler fuses the same products: the same bits. Where it
-// is not held to that (lane_math.h), light steering makes a thousand roundings of one.
+// The same source, the same sines, and the compiler fuses the same products: the same bits. Where
+// it is not held to that (lane_math.h), light steering makes a thousand roundings of one.
 static void check_one(double got, double want, const char *what) {
 #ifdef __x86_64__
   assert_same_bits(got, want, what);

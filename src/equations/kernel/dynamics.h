@@ -49,7 +49,7 @@ typedef struct kane {
   twist velocity;
   twist rest;     // accelerations with u', beta_r'' and Omega' zero, gravity as an upward one
   wrench need;    // for `rest`
-  vec rider_rest; // acceleration of the rider relative to the frame
+  vec rider_rest; // acceleration of the rider relative to the frame; with a load alone
   // momenta of the speeds' motions along pitch, along yaw, and of the front wheel's spin
   form along_B, along_Y, along_F;
   real M[6];     // phi phi, kap kap, v v, phi kap, phi v, kap v

@@ -20,11 +20,14 @@ typedef enum bike_event_kind {
   BIKE_EVENT_FRONT_LIFT, // the same at the front wheel
   BIKE_EVENT_LEAN_LIMIT, // |lean| reaches the limit; ends the ride
   BIKE_EVENT_VALIDITY,   // the model ends: a denominator, T_r cos(phi~) - T_f of (13) or
-                         // T_r - T_f cos(phi~) of (4) differentiated, has fallen to 1e-3 of
+                         // T_r - T_f cos(phi~) of (4) differentiated, has fallen to BIKE_EDGE of
                          // |T_r| + |T_f|, or the equations have no answer; ends the ride
   BIKE_EVENT_STANDSTILL  // the speed crosses zero; ends the ride. A ride that starts at speed
                          // zero has no such event: its wheels roll to and fro while it falls
 } bike_event_kind;
+
+// The share of |T_r| + |T_f| at which the model ends; src/motion/ride_event.c says why.
+#define BIKE_EDGE 1e-3
 
 typedef struct bike_event {
   bike_event_kind kind;
