@@ -1,0 +1,82 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Checks that take too long for every change.
+set -eu
+
+# One check a line: NAME|SUBJECT|COMMAND. The command runs in the project's folder with build/release
+# built, prints its counts in its last line, and returns 0 if all is well.
+checks() {
+  cat <<'END'
+threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|ctest --preset release -R '_threads|test_suite'
+END
+}
+
+usage() {
+  cat <<'END'
+Example: sh tests/long.sh
+         sh tests/long.sh threads
+
+Builds build/release and runs the checks that take longer than tests/run.sh may: all of them, or
+those named. Logs go to build/long/NAME.log.
+
+  --list            only list the checks
+  --print-packages  only list the Debian packages needed
+  --no-install      install nothing
+  --help            this text
+
+Exit status: 0 all checks pass; 1 one fails; 2 wrong usage, or the set-up failed.
+END
+}
+
+test_packages=yes # read by setup.sh
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+# shellcheck source=cmake/setup.sh
+. "$root/cmake/setup.sh"
+
+# The last line of a log that says something.
+last_line() {
+  sed -n '/[^[:space:]]/h; ${x;p;}' "$1"
+}
+
+# run_check NAME SUBJECT COMMAND
+run_check() {
+  say "$1: $2 ..."
+  start=$(date +%s)
+  verdict=pass
+  sh -c "$3" </dev/null >"$logs/$1.log" 2>&1 || verdict=FAIL
+  seconds=$(($(date +%s) - start))
+  printf '%s  %-12s %6d s  %s\n' "$verdict" "$1" "$seconds" "$(last_line "$logs/$1.log")"
+  if [ "$verdict" = FAIL ]; then
+    failed=$((failed + 1))
+    tail -n 40 "$logs/$1.log" >&2
+    say "$1 failed; its log is $logs/$1.log"
+  fi
+}
+
+wanted() {
+  [ -z "$chosen" ] || case " $chosen " in *" $1 "*) ;; *) return 1 ;; esac
+}
+
+for argument; do
+  case $argument in
+  --list) checks | sed 's/|\([^|]*\)|.*/: \1/' && exit 0 ;;
+  -*) die "unknown option $argument (see --help)" ;;
+  *) checks | grep -q "^$argument|" || die "no check '$argument' (see --list)" ;;
+  esac
+done
+chosen=$*
+cd -- "$root"
+build release
+logs=$root/build/long
+mkdir -p "$logs"
+failed=0
+count=0
+list=$logs/checks
+checks >"$list"
+while IFS='|' read -r name subject command; do
+  wanted "$name" || continue
+  count=$((count + 1))
+  run_check "$name" "$subject" "$command"
+done <"$list"
+printf '%d checks, %d failed\n' "$count" "$failed"
+[ "$failed" -eq 0 ] || exit 1
