@@ -13,9 +13,8 @@
 
 enum {
   SHOWN = 40,
-  // Of one line: all columns with names, or with numbers of the longest form there is, fit ten
-  // times.
-  LONGEST_LINE = 1 << 16
+  FIRST_SIZE = 1 << 16,  // of the buffer: most lines fit many times; doubled as needed
+  LONGEST_LINE = 1 << 24 // far more than all columns with all digits of a double; bounds the memory
 };
 
 // Longer than any input that is typed or recorded by hand, and bounded.
@@ -39,16 +38,27 @@ static span trim(const char *begin, const char *end) {
 
 //---------------------------------- lines ---------------------------------------------------------
 
+// A larger buffer for a line that fills it.
+static int enlarge(bike_csv_reader *r, bike_file_error *error) {
+  if (r->size >= LONGEST_LINE) {
+    ++r->line;
+    return fail(r, error, NULL, "the line is too long");
+  }
+  char *larger = realloc(r->buffer, 2 * r->size);
+  if (!larger) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", r->path);
+  r->buffer = larger;
+  r->size *= 2;
+  return BIKE_OK;
+}
+
 // Reads on behind what is left in the buffer.
 static int refill(bike_csv_reader *r, bike_file_error *error) {
   r->end -= r->begin;
   memmove(r->buffer, r->buffer + r->begin, r->end);
   r->begin = 0;
-  if (r->end == LONGEST_LINE) {
-    ++r->line;
-    return fail(r, error, NULL, "the line is too long");
-  }
-  r->end += fread(r->buffer + r->end, 1, LONGEST_LINE - r->end, r->stream);
+  const int code = r->end == r->size ? enlarge(r, error) : BIKE_OK;
+  if (code) return code;
+  r->end += fread(r->buffer + r->end, 1, r->size - r->end, r->stream);
   r->at_end = feof(r->stream);
   return ferror(r->stream) ? bike_text_system_error(r->path, errno, error) : BIKE_OK;
 }
@@ -126,7 +136,7 @@ static int read_header(bike_csv_reader *r, bike_file_error *error) {
 }
 
 int bike_csv_open(bike_csv_reader *out, const char *path, bike_file_error *error) {
-  *out = (bike_csv_reader){.path = strdup(path), .buffer = malloc(LONGEST_LINE)};
+  *out = (bike_csv_reader){.path = strdup(path), .buffer = malloc(FIRST_SIZE), .size = FIRST_SIZE};
   if (!out->path || !out->buffer)
     return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
   out->stream = bike_text_open(path, error);

@@ -34,8 +34,8 @@ typedef struct bike_csv_reader {
   long line;         // of the row last read, from 1
   char *path;        //
   FILE *stream;      //
-  char *buffer;      // what is read and not yet taken: begin .. end
-  size_t begin, end; //
+  char *buffer;      // of `size` bytes; what is read and not yet taken: begin .. end
+  size_t size, begin, end;
   bool at_end;       // nothing follows in the stream
 } bike_csv_reader;
 

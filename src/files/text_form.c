@@ -6,6 +6,7 @@
 
 #include <bicycle/error.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST_NAME = 15, SHOWN = 40 };
@@ -78,13 +79,16 @@ static int read_number(double *out, piece text, const char *key, const place *wh
 
 // A number with a common power of ten appended, as decimal text: exact, unlike a product.
 static int read_scaled(double *out, piece text, piece power, const char *key, const place *where) {
-  char joined[128];
+  char *joined;
   text = trim(text);
-  if (length_of(text) + length_of(power) >= sizeof joined)
-    return fail(where, key, "is not a number");
-  snprintf(joined, sizeof joined, "%.*s%.*s", (int)length_of(text), text.begin,
-           (int)length_of(power), power.begin);
-  return read_number(out, (piece){joined, joined + strlen(joined)}, key, where);
+  if (length_of(power) == 0) return read_number(out, text, key, where);
+  const int size = asprintf(&joined, "%.*s%.*s", (int)length_of(text), text.begin,
+                            (int)length_of(power), power.begin);
+  if (size < 0)
+    return bike_message(where->error, BIKE_ERROR_MEMORY, "%s: out of memory", where->path);
+  const int code = read_number(out, (piece){joined, joined + size}, key, where);
+  free(joined);
+  return code;
 }
 
 // value, value+/-sigma, or (value+/-sigma)e-05

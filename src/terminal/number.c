@@ -9,23 +9,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Three numbers of a range, with room for people who write all their zeros.
-enum { TEXT_SIZE = 128 };
+// A piece of the text, without a terminator.
+typedef struct piece {
+  const char *begin;
+  size_t length;
+} piece;
+
+typedef bool parse_function(double *out, piece text);
+
+static bool parse_number(double *out, piece text) {
+  return bike_number_parse(out, text.begin, text.length) == NULL;
+}
+
+static bool parse_angle(double *out, piece text) {
+  static const char suffix[] = "deg";
+  size_t tail = sizeof suffix - 1;
+  if (text.length <= tail || memcmp(text.begin + text.length - tail, suffix, tail) != 0)
+    return parse_number(out, text);
+  double degrees;
+  if (!parse_number(&degrees, (piece){text.begin, text.length - tail})) return false;
+  *out = degrees * (M_PI / 180);
+  return true;
+}
 
 bool term_parse_number(double *out, const char *text) {
-  return bike_number_parse(out, text, strlen(text)) == NULL;
+  return parse_number(out, (piece){text, strlen(text)});
 }
 
 bool term_parse_angle(double *out, const char *text) {
-  static const char suffix[] = "deg";
-  size_t length = strlen(text);
-  size_t tail = sizeof suffix - 1;
-  if (length <= tail || strcmp(text + length - tail, suffix) != 0)
-    return term_parse_number(out, text);
-  double degrees;
-  if (bike_number_parse(&degrees, text, length - tail) != NULL) return false;
-  *out = degrees * (M_PI / 180);
-  return true;
+  return parse_angle(out, (piece){text, strlen(text)});
 }
 
 bool term_parse_integer(long *out, const char *text, long low, long high) {
@@ -39,42 +51,33 @@ bool term_parse_integer(long *out, const char *text, long low, long high) {
 }
 
 // Splits at ':' into exactly `count` texts, each not empty.
-static bool split(char *text, char *part[], int count) {
+static bool split(piece part[], int count, const char *text) {
   for (int i = 0; i < count; i++) {
-    part[i] = text;
-    char *colon = strchr(text, ':');
-    if (colon == text || !*text || (colon != NULL) != (i < count - 1)) return false;
-    if (colon) {
-      *colon = '\0';
-      text = colon + 1;
-    }
+    part[i] = (piece){text, strcspn(text, ":")};
+    text += part[i].length;
+    if (part[i].length == 0 || (*text == ':') != (i < count - 1)) return false;
+    text += *text == ':';
   }
   return true;
 }
 
-static bool copy_text(char out[TEXT_SIZE], const char *text) {
-  return snprintf(out, TEXT_SIZE, "%s", text) < TEXT_SIZE;
-}
-
 bool term_parse_interval(double out[2], const char *text) {
-  char copy[TEXT_SIZE], *part[2];
+  piece part[2];
   double value[2];
-  if (!copy_text(copy, text) || !split(copy, part, 2)) return false;
-  if (!term_parse_number(&value[0], part[0]) || !term_parse_number(&value[1], part[1]))
-    return false;
+  if (!split(part, 2, text)) return false;
+  if (!parse_number(&value[0], part[0]) || !parse_number(&value[1], part[1])) return false;
   if (!(value[0] < value[1])) return false;
   memcpy(out, value, sizeof value);
   return true;
 }
 
-typedef bool parse_function(double *out, const char *text);
-
 static bool parse_range(term_range *out, const char *text, parse_function *parse_end) {
-  char copy[TEXT_SIZE], *part[3];
+  piece part[3];
   term_range range;
-  if (!copy_text(copy, text) || !split(copy, part, 3)) return false;
+  if (!split(part, 3, text)) return false;
   if (!parse_end(&range.first, part[0]) || !parse_end(&range.last, part[1]) ||
-      !term_parse_integer(&range.count, part[2], 1, TERM_MAX_RANGE))
+      !term_parse_integer(&range.count, part[2].begin, 1,
+                          TERM_MAX_RANGE)) // the last: ends the text
     return false;
   bool one_point = range.first == range.last;
   if (range.first > range.last || one_point != (range.count == 1)) return false;
@@ -83,11 +86,11 @@ static bool parse_range(term_range *out, const char *text, parse_function *parse
 }
 
 bool term_parse_range(term_range *out, const char *text) {
-  return parse_range(out, text, term_parse_number);
+  return parse_range(out, text, parse_number);
 }
 
 bool term_parse_angle_range(term_range *out, const char *text) {
-  return parse_range(out, text, term_parse_angle);
+  return parse_range(out, text, parse_angle);
 }
 
 double term_range_point(const term_range *range, long index) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of a command line are taken whole and finite, or not at all.
 #include "support/near.h"
+#include "support/random.h"
 #include "terminal/number.h"
 
 #include <locale.h>
 #include <math.h>
+#include <string.h>
 
 static const double untouched = 12345;
 
@@ -69,8 +71,77 @@ static void ranges(void **state) {
       fail_msg("'%s' was taken", wrong_interval[i]);
 }
 
+static void expect_number(double expected, const char *text) {
+  double value = untouched;
+  if (!term_parse_number(&value, text)) fail_msg("'%.40s...' was refused", text);
+  if (memcmp(&value, &expected, sizeof value) != 0)
+    fail_msg("'%.40s...': %a instead of %a", text, value, expected);
+}
+
+// Whatever its length, a decimal gives the double next to it; a tie the even one. Numbers halfway
+// between two doubles, which long double holds exactly, have the most digits that matter.
+static void any_length(void **state) {
+  (void)state;
+  static char text[4000];
+  random_source random = random_begin("any_length", 1);
+  for (int i = 0; i < 500; i++) {
+    uint64_t bits = random_bits(&random) >> (i % 3 ? 1 : 12); // every third not normal
+    double low;
+    memcpy(&low, &bits, sizeof low);
+    if (!(low < 1e300)) continue;
+    double high = nextafter(low, INFINITY), even = bits % 2 ? high : low;
+    snprintf(text, sizeof text, "%.1100f", low);
+    expect_number(low, text);
+    snprintf(text, sizeof text, "-%.1100f", low);
+    expect_number(-low, text);
+    long double middle = ((long double)low + high) / 2;
+    size_t length = (size_t)snprintf(text, sizeof text, "%.1100Lf", middle);
+    expect_number(even, text);
+    snprintf(text + length, sizeof text - length, "%01000d", 1);
+    expect_number(high, text);
+    length = (size_t)snprintf(text, sizeof text, "%.1100Le", middle);
+    expect_number(even, text);
+  }
+}
+
+// Zeros and exponents that make up for each other, or not.
+static void long_exponents(void **state) {
+  (void)state;
+  static char text[4000];
+  snprintf(text, sizeof text, "1%01000de-1000", 0);
+  expect_number(1, text);
+  snprintf(text, sizeof text, "0.%0999d1e1000", 0);
+  expect_number(1, text);
+  snprintf(text, sizeof text, "%01000d.5e%01000d", 7, 1);
+  expect_number(75, text);
+  snprintf(text, sizeof text, "0.%01000d", 0);
+  expect_number(0, text);
+  expect_number(-0.0, "-0e99999999999999999999999");
+  expect_number(0, "1e-99999999999999999999999");
+  expect_number(2.2250738585072014e-308, "2.2250738585072014e-0000000000000000000308");
+  double value = untouched;
+  assert_false(term_parse_number(&value, "1e99999999999999999999999"));
+  snprintf(text, sizeof text, "1%0400d", 0);
+  assert_false(term_parse_number(&value, text));
+  snprintf(text, sizeof text, "%.400fx", 0.1);
+  assert_false(term_parse_number(&value, text));
+  assert_near(value, untouched, 0);
+  term_range range;
+  double interval[2];
+  snprintf(text, sizeof text, "%.400f:%.400f:3", 0.1, 0.7);
+  assert_true(term_parse_range(&range, text));
+  assert_near(range.last, 0.7, 0);
+  snprintf(text, sizeof text, "%.400fdeg:%.400fdeg:3", 0.1, 0.7);
+  assert_true(term_parse_angle_range(&range, text));
+  assert_near(range.first, 0.1 * (M_PI / 180), 0);
+  snprintf(text, sizeof text, "%.400f:%.400f", 0.1, 0.7);
+  assert_true(term_parse_interval(interval, text));
+  assert_near(interval[1], 0.7, 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(numbers), cmocka_unit_test(angles),
-                                     cmocka_unit_test(ranges)};
+                                     cmocka_unit_test(ranges), cmocka_unit_test(any_length),
+                                     cmocka_unit_test(long_exponents)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

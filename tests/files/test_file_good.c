@@ -228,6 +228,26 @@ static void shipped(void **state) {
   }
 }
 
+// A value with all digits of a double in a file of each form; the sample's numbers are the
+// reference.
+static void long_numbers(void **state) {
+  (void)state;
+  static const struct {
+    const char *good, *from, *format;
+  } cases[] = {{SAMPLE_VALUES, "c: 0.08", "c: %.500f"},
+               {SAMPLE_FLAT, "c: 0.08", "c: %.500f"},
+               {SAMPLE_TEXT, "c = 0.08+/-0.0", "c = %.500f+/-0.0"},
+               {SAMPLE_TEXT, "c = 0.08+/-0.0", "c = (%.500f+/-0.0)e+00"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char to[1000];
+    snprintf(to, sizeof to, cases[i].format, 0.08);
+    const bike_file file = read_edited(cases[i].good, cases[i].from, to);
+    const bike_file plain = read_edited(cases[i].good, cases[i].from, cases[i].from);
+    assert_memory_equal(&file.bicycle.geometry, &plain.bicycle.geometry,
+                        sizeof file.bicycle.geometry);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(meijaard_forms), cmocka_unit_test(uncertainties),
@@ -235,6 +255,7 @@ int main(void) {
       cmocka_unit_test(quoted_words),   cmocka_unit_test(empty_metadata),
       cmocka_unit_test(shapes_of_text), cmocka_unit_test(components),
       cmocka_unit_test(hub_rounding),   cmocka_unit_test(shipped),
+      cmocka_unit_test(long_numbers),
   };
   return cmocka_run_group_tests(tests, scratch_create, scratch_remove);
 }

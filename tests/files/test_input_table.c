@@ -62,7 +62,7 @@ static void wrong_files(void **state) {
   assert_int_equal(bike_input_table_create(&table, scratch_folder(), 1, NULL), BIKE_ERROR_FILE);
 }
 
-// Lines are read in pieces of 64 kB: wherever one ends, rows are whole, and a line that never ends
+// Lines are read in pieces: wherever one ends, rows are whole, and a line that never ends
 // is refused.
 static void long_files(void **state) {
   (void)state;
@@ -85,15 +85,36 @@ static void long_files(void **state) {
   }
   bike_input_table_free(table);
 
-  char *line = calloc(1, 70000);
+  enum { LONG = (1 << 24) + 100 };
+  char *line = calloc(1, LONG);
   assert_non_null(line);
-  memset(line, ' ', 69999);
+  memset(line, ' ', LONG - 1);
   memcpy(line, "time,steer_torque\n0,1\n", 22);
   bike_file_error error = {""};
   assert_int_equal(bike_input_table_create(&table, scratch_write("long.csv", line), 1, &error),
                    BIKE_ERROR_SYNTAX);
   assert_non_null(strstr(error.text, ":3: the line is too long"));
   free(line);
+}
+
+// A number with more digits than the first buffer holds, and the smallest ones in full.
+static void long_numbers(void **state) {
+  (void)state;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  fprintf(stream, "time,steer_torque,roll_torque\n0,%.1080f,%.400f\n1,0.25%0200000d,0\n", 0x1p-1074,
+          2.2250738585072014e-308, 1);
+  fclose(stream);
+  bike_input_table *table = create(text, 1);
+  free(text);
+  bike_input begin = {0}, end = {0};
+  bike_input_table_at(0, &begin, table);
+  bike_input_table_at(1, &end, table);
+  assert_true(begin.steer_torque == 0x1p-1074);
+  assert_true(begin.roll_torque == 2.2250738585072014e-308);
+  assert_true(end.steer_torque == 0.25);
+  bike_input_table_free(table);
 }
 
 // A file without an end, and one of more numbers than fit.
@@ -195,8 +216,9 @@ static void spline_order(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(wrong_files),       cmocka_unit_test(long_files),
-      cmocka_unit_test(endless_files),     cmocka_unit_test(torques_are_linear),
-      cmocka_unit_test(spline_of_a_cubic), cmocka_unit_test(spline_order)};
+      cmocka_unit_test(wrong_files),        cmocka_unit_test(long_files),
+      cmocka_unit_test(long_numbers),       cmocka_unit_test(endless_files),
+      cmocka_unit_test(torques_are_linear), cmocka_unit_test(spline_of_a_cubic),
+      cmocka_unit_test(spline_order)};
   return cmocka_run_group_tests(tests, scratch_create, scratch_remove);
 }
