@@ -11,7 +11,7 @@
 
 // The list of files of the report in a folder; NULL where there is none.
 static json_t *load_files(int folder) {
-  int descriptor = openat(folder, "report.json", O_RDONLY | O_CLOEXEC);
+  int descriptor = openat(folder, "report.json", O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   FILE *stream = descriptor >= 0 ? fdopen(descriptor, "r") : NULL;
   if (!stream) {
     if (descriptor >= 0) close(descriptor);

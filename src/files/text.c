@@ -5,10 +5,14 @@
 
 #include <bicycle/error.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
+#include <unistd.h>
 
 enum { FIRST_SIZE = 16384 }; // most bicycle files fit; doubled as needed
 
@@ -124,21 +128,35 @@ static void drop_byte_order_mark(bike_text *text) {
   memmove(text->data, text->data + length, text->size + 1);
 }
 
-// To open a named pipe is to wait for somebody who writes there, perhaps forever. Pipes that the
-// shell has opened already are files of /dev: /dev/stdin, /dev/fd/63.
-static bool is_named_pipe(const char *path) {
-  struct stat status;
-  return strncmp(path, "/dev/", 5) != 0 && stat(path, &status) == 0 && S_ISFIFO(status.st_mode);
+// To open a named pipe is to wait for a writer, perhaps forever. A pipe without a name is one that
+// the shell has opened already, /dev/fd/63; so is the one behind /dev/stdin, named or not.
+bool bike_text_is_named_pipe(const char *path) {
+  struct stat status, input;
+  struct statfs system;
+  if (stat(path, &status) != 0 || !S_ISFIFO(status.st_mode)) return false;
+  if (statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC) return false;
+  return fstat(STDIN_FILENO, &input) != 0 || input.st_dev != status.st_dev ||
+         input.st_ino != status.st_ino;
+}
+
+// Opens without waiting, even for the writer of a pipe; reading waits as usual.
+static FILE *open_at_once(const char *path) {
+  const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  if (descriptor < 0) return NULL;
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+  FILE *stream = fdopen(descriptor, "r");
+  if (!stream) close(descriptor);
+  return stream;
 }
 
 FILE *bike_text_open(const char *path, bike_file_error *error) {
   struct stat status;
-  if (is_named_pipe(path)) {
+  if (bike_text_is_named_pipe(path)) {
     bike_message(error, BIKE_ERROR_FILE,
                  "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
     return NULL;
   }
-  FILE *stream = fopen(path, "re");
+  FILE *stream = open_at_once(path);
   int number = errno;
   if (stream && fstat(fileno(stream), &status) == 0 && !S_ISDIR(status.st_mode)) return stream;
   if (stream) {

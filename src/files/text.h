@@ -4,6 +4,7 @@
 #define FILES_TEXT_H
 
 #include <bicycle/file.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -20,8 +21,12 @@ int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_err
 
 void bike_text_free(bike_text *text);
 
-// Opens a file for reading; folders and named pipes are refused. NULL is BIKE_ERROR_FILE.
+// Opens a file for reading; folders and named pipes are refused. NULL is BIKE_ERROR_FILE. This is
+// the one rule of all inputs: what the shell has opened (/dev/stdin, <(command)) is read.
 FILE *bike_text_open(const char *path, bike_file_error *error);
+
+// Whether `path` is a pipe that opening might wait for.
+bool bike_text_is_named_pipe(const char *path);
 
 // What keeps bytes from being UTF-8 text without control characters; NULL: nothing. No character
 // may be cut at their end.

@@ -89,6 +89,17 @@ static void every_command_reads_a_file_once(void **state) {
   }
 }
 
+// What the shell has opened is read: process substitution, and a named pipe as standard input, even
+// if its writer has gone by then.
+static void pipes_of_the_shell_are_read(void **state) {
+  (void)state;
+  run_well("cat > read.sh <<'end'\n"
+           "timeout 10 bicycle state <(cat " MODEL "roadster/roadster.yml\") --speed 5\nend\n"
+           "bash read.sh");
+  run_well("mkfifo p && { cat " MODEL "roadster/roadster.yml\" > p & } && "
+           "{ sleep 0.2; timeout 10 bicycle state /dev/stdin --speed 5; } < p");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_file_name_is_made_utf8),
@@ -96,6 +107,7 @@ int main(void) {
       cmocka_unit_test(a_path_is_shown_in_json),
       cmocka_unit_test(what_json_refuses_is_no_text),
       cmocka_unit_test(every_command_reads_a_file_once),
+      cmocka_unit_test(pipes_of_the_shell_are_read),
   };
   return cmocka_run_group_tests(tests, run_enter_group, run_leave_group);
 }

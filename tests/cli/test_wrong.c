@@ -25,6 +25,7 @@ static const run_wrong commands[] = {
     {"bicycle state benchmark roadster --speed 5", "'roadster'"},
     {"bicycle state empty.yml --speed 5", "empty.yml"},
     {"timeout 10 bicycle state pipe.yml --speed 5", "pipe.yml: is a named pipe"},
+    {"timeout 10 bicycle state /dev/..$(pwd)/pipe.yml --speed 5", "pipe.yml: is a named pipe"},
     {"bicycle state \"$(printf 'a\\nb').yml\" --speed 5", "a?b.yml"},
     {"bicycle linear nosuch.yml --speed 5", "nosuch.yml"},
     {"bicycle stability nosuch.yml", "nosuch.yml"},
@@ -84,6 +85,7 @@ static const run_wrong commands[] = {
     {RIDE "--input nosuch.csv", "nosuch.csv"},
     {RIDE "--input folder", "folder"},
     {RIDE "--input empty.csv", "empty.csv"},
+    {"timeout 10 " RIDE "--input pipe.yml", "pipe.yml: is a named pipe"},
     {RIDE "--input broken.csv", "broken.csv:3"},
     {"bicycle ride roadster_riderless --speed 6 --time 1 --sample 0.1 -o out.csv "
      "--rider-offset 0.01",
