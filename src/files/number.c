@@ -118,9 +118,14 @@ bool bike_number_is_not_finite(double *out, const char *text, size_t length) {
 const char *bike_number_parse(double *out, const char *text, size_t length) {
   double value;
   char copy[KEPT + 32];
-  if (read_not_finite(&value, text, text + length)) return "is not finite";
-  if (!is_decimal(text, text + length)) return "is not a number";
-  shorten(copy, text, text + length);
+  if (!is_decimal(text, text + length))
+    return read_not_finite(&value, text, text + length) ? "is not finite" : "is not a number";
+  if (length < sizeof copy) {
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+  } else {
+    shorten(copy, text, text + length);
+  }
   value = strtod_l(copy, NULL, c_locale());
   if (!isfinite(value)) return "is too large";
   *out = value;
