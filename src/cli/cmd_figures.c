@@ -170,8 +170,8 @@ static int add_figure_2(figure_set *set, const bike_model *model, const argument
   turn_map map;
   if (!(model->rider_mass > 0)) {
     snprintf(set->note, sizeof set->note,
-             "Figure 2 is missing: it shows the rider's displacement, and no part of this bicycle "
-             "is the rider (rider: true in the file).");
+             "Figure 2 is missing: it shows the rider's displacement, and %s.",
+             bike_error_string(BIKE_ERROR_NO_RIDER));
     return BIKE_OK;
   }
   int code = turn_map_make(&map, model, &args->speeds, &args->leans, args->threads, progress);

@@ -3,6 +3,7 @@
 #include "components.h"
 #include "angle.h"
 #include "forms.h"
+#include "plausible.h"
 
 #include <bicycle/error.h>
 #include <math.h>
@@ -194,6 +195,16 @@ static int component_line(int part, const char *rule, const char **key, const vo
   return field.line;
 }
 
+static int check_plausible(const bike_yaml *yaml, const bike_description *d,
+                           const bike_bicycle *bicycle) {
+  bike_doubt doubt;
+  if (!bike_has_doubt(&doubt, bicycle)) return BIKE_OK;
+  const bike_field field =
+      doubt.part < 0 ? d->geometry_field : part_field(&d->parts[doubt.part], "position");
+  return bike_yaml_fail(yaml, &field, BIKE_ERROR_PARAMETER, "%s%s", doubt.text,
+                        doubt.below_ground ? ": positions are [forward, left, up]" : "");
+}
+
 static int build(bike_bicycle *out, bike_description *d, const bike_yaml *yaml) {
   bike_upright upright;
   const int impossible = bike_upright_position(&upright, &d->geometry);
@@ -212,7 +223,8 @@ static int build(bike_bicycle *out, bike_description *d, const bike_yaml *yaml) 
     if (code) return code;
     bicycle.parts[i] = d->parts[i].part;
   }
-  const int code = bike_report_check(&bicycle, yaml->path, component_line, d, yaml->error);
+  int code = bike_report_check(&bicycle, yaml->path, component_line, d, yaml->error);
+  if (!code) code = check_plausible(yaml, d, &bicycle);
   if (!code) *out = bicycle;
   return code;
 }

@@ -5,6 +5,7 @@
 
 #include "angle.h"
 #include "message.h"
+#include "plausible.h"
 #include "tensor.h"
 
 #include <bicycle/error.h>
@@ -150,6 +151,23 @@ static int check_complete(const reading *r) {
   return BIKE_OK;
 }
 
+// Of a bicycle whose z points up, both frames are below the ground. Wheels are at their hubs.
+static int check_plausible(const reading *r, const bike_bicycle *bicycle) {
+  bike_doubt doubt;
+  char what[256];
+  if (!bike_has_doubt(&doubt, bicycle)) return BIKE_OK;
+  const bool rear = doubt.part == 0;
+  if (!doubt.below_ground)
+    return refuse(r,
+                  doubt.part < 0 ? MEIJAARD_W
+                  : rear         ? MEIJAARD_XB
+                                 : MEIJAARD_XH,
+                  BIKE_ERROR_PARAMETER, doubt.text);
+  snprintf(what, sizeof what, "must not be positive: z points down in this format, and %s",
+           doubt.text);
+  return refuse(r, rear ? MEIJAARD_ZB : MEIJAARD_ZH, BIKE_ERROR_PARAMETER, what);
+}
+
 // The symbol to blame for a rule of bike_check, by part (B, R, H, F) or by the bicycle's geometry.
 static int symbol_line(int part, const char *rule, const char **key, const void *user) {
   static const int inertia[4] = {MEIJAARD_IBXX, MEIJAARD_IRXX, MEIJAARD_IHXX, MEIJAARD_IFXX};
@@ -191,7 +209,11 @@ int bike_symbols_to_file(bike_file *out, const bike_symbols *symbols, const char
   bicycle->parts[2].position[1] = -symbols->value[MEIJAARD_YH];
   code = bike_report_check(bicycle, path, symbol_line, symbols, error);
   if (code) return code;
-  if (symbols->rider.given && !split_rider(bicycle, &symbols->rider))
+  code = check_plausible(&r, bicycle);
+  if (code) return code;
+  bike_doubt doubt;
+  if (symbols->rider.given &&
+      (!split_rider(bicycle, &symbols->rider) || bike_has_doubt(&doubt, bicycle)))
     return bike_message_at(error, BIKE_ERROR_PARAMETER, path, symbols->rider.line, "rider_share",
                            "this rider does not fit into the mass and inertia of B");
   out->has_meijaard = true;

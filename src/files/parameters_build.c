@@ -3,6 +3,7 @@
 
 #include "angle.h"
 #include "message.h"
+#include "plausible.h"
 
 #include <bicycle/error.h>
 #include <math.h>
@@ -51,7 +52,13 @@ static void place_wheel(bike_component *c, const bike_upright *upright) {
 static int check(const bike_bicycle *bicycle, bike_file_error *error) {
   int part;
   const char *rule = NULL;
-  const int code = bike_check(bicycle, &part, &rule);
+  bike_doubt doubt;
+  int code = bike_check(bicycle, &part, &rule);
+  if (!code && bike_has_doubt(&doubt, bicycle)) {
+    code = BIKE_ERROR_PARAMETER;
+    part = doubt.part;
+    rule = doubt.text;
+  }
   if (!code) return BIKE_OK;
   if (!rule) rule = bike_error_string(code);
   if (part < 0) return bike_message(error, code, "%s", rule);

@@ -186,6 +186,45 @@ static void components(void **state) {
   assert_string_equal(lengths.bicycle.name, "lengths");
 }
 
+// The benchmark with its lengths, masses and inertias multiplied; whether it is read.
+static int read_scaled(double length, double mass, double inertia) {
+  char text[4096];
+  int used = 0;
+  const bike_file file = read_sample("benchmark.yml", SAMPLE_FLAT);
+  for (int i = 0; i < BIKE_MEIJAARD_COUNT; ++i) {
+    const char *name = bike_meijaard_symbols()[i];
+    const bool plain = strcmp(name, "lam") == 0 || strcmp(name, "g") == 0;
+    const double factor = plain ? 1 : *name == 'I' ? inertia : *name == 'm' ? mass : length;
+    used += snprintf(text + used, sizeof text - (size_t)used, "%s: %.17g\n", name,
+                     factor * file.meijaard.value[i]);
+  }
+  bike_file scaled;
+  return bike_file_read(&scaled, scratch_write("scaled.yml", text), NULL);
+}
+
+// Bicycles of any size are bicycles, if their mass is that of the size; lengths in centimetres or
+// millimetres are not, whatever the unit of the inertias.
+static void sizes_and_units(void **state) {
+  (void)state;
+  static const double sizes[] = {1e-4, 1e-2, 0.5, 4, 100, 1e4};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
+    assert_int_equal(read_scaled(sizes[i], pow(sizes[i], 3), pow(sizes[i], 5)), BIKE_OK);
+  for (double unit = 100; unit <= 1000; unit *= 10)
+    for (double mass = 0.1; mass < 1.5; mass *= 3) { // as light as a frame, as heavy as a rider
+      assert_int_equal(read_scaled(unit, mass, mass), BIKE_ERROR_PARAMETER);
+      assert_int_equal(read_scaled(unit, mass, mass * unit * unit), BIKE_ERROR_PARAMETER);
+    }
+  assert_int_equal(read_scaled(4, 0.2, 3), BIKE_OK); // a long, light one
+}
+
+// A skate's mass lies on the ground.
+static void mass_on_the_ground(void **state) {
+  (void)state;
+  read_edited(SAMPLE_VALUES, "zH: -0.7", "zH: 0");
+  read_edited(SAMPLE_VALUES, "zH: -0.7", "zH: 1e-17");
+  read_edited(SAMPLE_COMPONENTS, "[0.86, 0, 0.85]", "[0.86, 0, 0]");
+}
+
 // A wheel's place is put exactly on the hub.
 static void hub_rounding(void **state) {
   (void)state;
@@ -250,11 +289,12 @@ static void long_numbers(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(meijaard_forms), cmocka_unit_test(uncertainties),
-      cmocka_unit_test(unused_keys),    cmocka_unit_test(lateral_positions),
-      cmocka_unit_test(quoted_words),   cmocka_unit_test(empty_metadata),
-      cmocka_unit_test(shapes_of_text), cmocka_unit_test(components),
-      cmocka_unit_test(hub_rounding),   cmocka_unit_test(shipped),
+      cmocka_unit_test(meijaard_forms),  cmocka_unit_test(uncertainties),
+      cmocka_unit_test(unused_keys),     cmocka_unit_test(lateral_positions),
+      cmocka_unit_test(quoted_words),    cmocka_unit_test(empty_metadata),
+      cmocka_unit_test(shapes_of_text),  cmocka_unit_test(components),
+      cmocka_unit_test(hub_rounding),    cmocka_unit_test(shipped),
+      cmocka_unit_test(sizes_and_units), cmocka_unit_test(mass_on_the_ground),
       cmocka_unit_test(long_numbers),
   };
   return cmocka_run_group_tests(tests, scratch_create, scratch_remove);

@@ -53,6 +53,26 @@ const wrong_edit WRONG_EDITS[] = {
      ":3: rider_share: this rider does not fit"},
     {SAMPLE_VALUES, "rider: true", "rider_share: {mP: 40, xP: 0.3, zP: -2}", RANGE,
      ":3: rider_share: this rider does not fit"},
+    // what only the numbers themselves give away: z up, and lengths in another unit
+    {SAMPLE_VALUES, "zB: -0.9", "zB: 0.9", RANGE,
+     ":15: zB: must not be positive: z points down in this format, and the mass centre would be "
+     "0.9 m below the ground"},
+    {SAMPLE_FLAT, "zH: -0.7", "zH: 0.7", RANGE, ":17: zH: must not be positive: z points down"},
+    {SAMPLE_TEXT, "zB = -0.9", "zB = 0.9", RANGE, ":11: zB: must not be positive: z points down"},
+    {SAMPLE_VALUES, "rider: true", "rider_share: {mP: 40, xP: 0.3, zP: 0.01}", RANGE,
+     ":3: rider_share: this rider does not fit"},
+    {SAMPLE_COMPONENTS, "[0.36, 0, 1.08]", "[0.36, 0, -1.08]", RANGE,
+     ":25: position: the mass centre would be 1.08 m below the ground: positions are [forward, "
+     "left, up]"},
+    {SAMPLE_VALUES, "xB: 0.3\n  zB: -0.9", "xB: 300\n  zB: -900", RANGE,
+     ":14: xB: 900 m in a bicycle of 94 kg: lengths are in metres, these look like millimetres"},
+    {SAMPLE_VALUES, "w: 1.02\n  c: 0.08", "w: 102\n  c: 8", RANGE,
+     ":6: w: 102 m in a bicycle of 94 kg: lengths are in metres, these look like centimetres"},
+    {SAMPLE_COMPONENTS, "[0.86, 0, 0.85]", "[860, 0, 850]", RANGE,
+     ":31: position: 860 m in a bicycle of 89 kg: lengths are in metres"},
+    {SAMPLE_COMPONENTS, "rear_radius: 0.34", "rear_radius: 340", RANGE,
+     ":5: geometry: 340 m in a bicycle of 89 kg: lengths are in metres, these look like "
+     "centimetres"},
     {SAMPLE_FLAT, "c: 0.08", "c: 0.08\nc: 0.08", SYNTAX, ":3: c: given twice"},
     {SAMPLE_FLAT, "c: 0.08\n", "", SYNTAX, ": key 'c' is missing"},
     {SAMPLE_FLAT, "c: 0.08", "lP: 1.7", SYNTAX, ":2: lP: unknown key"},

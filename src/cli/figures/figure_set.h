@@ -33,7 +33,7 @@ typedef struct figure_set {
   bike_convention convention; // of steering angles
   int count;
   figure figures[MAX_FIGURES];
-  char note[256]; // what could not be drawn, and why; may be empty
+  char note[400]; // what could not be drawn, and why; may be empty
 } figure_set;
 
 // Adds a picture; draws `p` with "Figure NUMBER, BICYCLE. CAPTION" below. Returns where its table

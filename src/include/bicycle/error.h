@@ -13,7 +13,8 @@
   X(BIKE_ERROR_MEMORY, "out of memory")                                                            \
   X(BIKE_ERROR_PARAMETER, "a parameter of the bicycle is outside its range")                       \
   X(BIKE_ERROR_IMPOSSIBLE, "the two wheels of this bicycle cannot stand on the ground")            \
-  X(BIKE_ERROR_NO_RIDER, "no part of the bicycle is the rider")                                    \
+  X(BIKE_ERROR_NO_RIDER, "no part of the bicycle is the rider: `rider: true` in a list of parts, " \
+                         "`rider_share` in a file of Meijaard's symbols mark him")                 \
   X(BIKE_ERROR_GEOMETRY,                                                                           \
     "no geometry: both wheels cannot touch the ground at this lean and steer")                     \
   X(BIKE_ERROR_SINGULAR, "singular: the accelerations are not determined at this state")           \
