@@ -1,83 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baseline.h"
 
-#include "report.h"
 #include "report_read.h"
 #include "terminal/json.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-// The file itself, or report.json in a folder; false when out of memory.
-static bool report_path(char **out, const char *given) {
-  struct stat status;
-  bool folder = stat(given, &status) == 0 && S_ISDIR(status.st_mode);
-  return asprintf(out, "%s%s", given, folder ? "/report.json" : "") >= 0;
-}
-
-static json_t *load(const char *path, problem *p) {
-  json_error_t error;
-  FILE *stream = fopen(path, "re");
-  if (!stream) {
-    problem_set(p, TERM_BASELINE, "%s: %s", path, strerror(errno));
-    return NULL;
-  }
-  json_t *document = json_loadf(stream, 0, &error);
-  if (!document) problem_set(p, TERM_BASELINE, "%s:%d: %s", path, error.line, error.text);
-  fclose(stream);
-  return document;
-}
-
-static bool is_scenario(const json_t *entry) {
+// The scenarios of a report by their names; NULL when out of memory.
+static json_t *scenarios_by_name(const json_t *document) {
   size_t i;
-  const json_t *judged, *gates = json_object_get(entry, "gates");
-  json_array_foreach(gates, i, judged) {
-    if (!json_is_object(judged)) return false;
-  }
-  return json_is_array(gates);
-}
-
-static term_exit check_schema(const json_t *document, const char *path, problem *p) {
-  long long version = json_integer_value(json_object_get(document, "version"));
-  if (strcmp(report_text(document, "schema"), REPORT_SCHEMA) != 0)
-    return problem_set(p, TERM_BASELINE, "%s: schema: is not \"%s\"", path, REPORT_SCHEMA);
-  if (version != REPORT_VERSION)
-    return problem_set(p, TERM_BASELINE, "%s: version: %lld, but this program writes %d", path,
-                       version, REPORT_VERSION);
-  size_t i;
-  const json_t *entry, *scenarios = json_object_get(document, "scenarios");
-  if (!json_is_array(scenarios))
-    return problem_set(p, TERM_BASELINE, "%s: scenarios: missing", path);
-  json_array_foreach(scenarios, i, entry) {
-    if (!is_scenario(entry))
-      return problem_set(p, TERM_BASELINE, "%s: scenarios: number %zu is none", path, i + 1);
-  }
-  return TERM_DONE;
-}
-
-term_exit baseline_read(json_t **out, const char *given, problem *p) {
-  char *path;
-  if (!report_path(&path, given)) return problem_memory(p);
-  *out = load(path, p);
-  term_exit code = *out ? check_schema(*out, path, p) : TERM_BASELINE;
-  if (code != TERM_DONE) {
-    json_decref(*out);
-    *out = NULL;
-  }
-  free(path);
-  return code;
-}
-
-static json_t *entry_named(const json_t *document, const char *name) {
-  size_t i;
-  json_t *entry;
+  json_t *entry, *index = json_object();
   json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
-    if (strcmp(report_text(entry, "name"), name) == 0) return entry;
+    if (json_object_set(index, report_text(entry, "name"), entry)) {
+      json_decref(index);
+      return NULL;
+    }
   }
-  return NULL;
+  return index;
 }
 
 // Also where both have no such key.
@@ -116,12 +57,12 @@ static const char *first_difference(const json_t *a, const json_t *b) {
   return NULL;
 }
 
-term_exit baseline_match(const json_t *document, const json_t *baseline, problem *p) {
+static term_exit match(const json_t *document, const json_t *index, problem *p) {
   size_t i;
   const json_t *entry;
   json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
     const char *name = report_text(entry, "name");
-    const json_t *before = entry_named(baseline, name);
+    const json_t *before = json_object_get(index, name);
     if (!before) return problem_set(p, TERM_BASELINE, "the baseline has no scenario '%s'", name);
     const char *key = first_difference(entry, before);
     if (key)
@@ -131,16 +72,36 @@ term_exit baseline_match(const json_t *document, const json_t *baseline, problem
   return TERM_DONE;
 }
 
-// The gate of the same name in another entry; NULL if there is none.
-static json_t *gate_like(const json_t *entry, const report_gate *g) {
-  size_t i;
-  json_t *other;
-  json_array_foreach(json_object_get(entry, "gates"), i, other) {
-    report_gate o = report_gate_at(entry, i);
-    if (strcmp(o.layer, g->layer) == 0 && strcmp(o.signal, g->signal) == 0 &&
-        strcmp(o.metric, g->metric) == 0 && o.from == g->from && o.to == g->to)
-      return other;
+term_exit baseline_match(const json_t *document, const json_t *baseline, problem *p) {
+  json_t *index = scenarios_by_name(baseline);
+  term_exit code = index ? match(document, index, p) : problem_memory(p);
+  json_decref(index);
+  return code;
+}
+
+//---------------------------------- gates ---------------------------------------------------------
+
+// What makes a gate the same in two reports, as one text; NULL when out of memory.
+static char *gate_key(const report_gate *g) {
+  char *key;
+  int size =
+      asprintf(&key, "%s\n%s\n%s\n%.17g\n%.17g", g->layer, g->signal, g->metric, g->from, g->to);
+  return size < 0 ? NULL : key;
+}
+
+// The gates of a scenario by their keys, the first of each; NULL when out of memory.
+static json_t *gates_by_key(const json_t *entry) {
+  json_t *index = json_object(), *gates = json_object_get(entry, "gates");
+  bool done = index;
+  for (size_t i = 0; done && i < json_array_size(gates); i++) {
+    report_gate g = report_gate_at(entry, i);
+    char *key = gate_key(&g);
+    done = key && (json_object_get(index, key) ||
+                   json_object_set(index, key, json_array_get(gates, i)) == 0);
+    free(key);
   }
+  if (done) return index;
+  json_decref(index);
   return NULL;
 }
 
@@ -152,10 +113,13 @@ static const char *change_of(double before, double now, double floor) {
   return now > before ? "worse" : "better";
 }
 
-static bool compare_gate(json_t *entry, size_t index, const json_t *before) {
+static bool compare_gate(json_t *entry, size_t index, const json_t *gates_before) {
   report_gate g = report_gate_at(entry, index);
   json_t *judged = json_array_get(json_object_get(entry, "gates"), index);
-  const json_t *old = gate_like(before, &g);
+  char *key = gate_key(&g);
+  if (!key) return false;
+  const json_t *old = json_object_get(gates_before, key);
+  free(key);
   if (!old)
     return json_object_set_new(judged, "baseline",
                                json_pack("{s:n, s:n, s:s, s:s}", "value", "floor", "floor_source",
@@ -171,13 +135,20 @@ static bool compare_gate(json_t *entry, size_t index, const json_t *before) {
          json_object_set_new(block, "change", json_string(change_of(value, g.value, floor))) == 0;
 }
 
-// Names of gates that the baseline has and the entry has not: what is no longer measured.
-static json_t *gone_gates(const json_t *entry, const json_t *before) {
+// Names of gates that the baseline has and the entry has not: what is no longer measured. NULL when
+// out of memory.
+static json_t *gone_gates(const json_t *gates_now, const json_t *before) {
   json_t *gone = json_array();
   for (size_t i = 0; i < report_count(before, "gates"); i++) {
     report_gate g = report_gate_at(before, i);
-    if (!gate_like(entry, &g))
-      json_array_append_new(gone, json_sprintf("%s %s %s", g.layer, g.signal, g.metric_words));
+    char *key = gate_key(&g);
+    bool done = key && (json_object_get(gates_now, key) ||
+                        json_array_append_new(gone, json_sprintf("%s %s %s", g.layer, g.signal,
+                                                                 g.metric_words)) == 0);
+    free(key);
+    if (done) continue;
+    json_decref(gone);
+    return NULL;
   }
   return gone;
 }
@@ -185,39 +156,84 @@ static json_t *gone_gates(const json_t *entry, const json_t *before) {
 static const char *const changes[] = {"better", "same", "worse", "new"};
 enum { CHANGES = sizeof changes / sizeof *changes };
 
-static bool compare_entry(json_t *entry, const json_t *before, size_t total[CHANGES],
-                          size_t *gone_total) {
-  for (size_t i = 0; i < report_count(entry, "gates"); i++)
-    if (!compare_gate(entry, i, before)) return false;
-  json_t *gone = gone_gates(entry, before), *block = json_object();
+// What a document counts of all its scenarios.
+typedef struct totals {
+  size_t changed[CHANGES], gone;
+} totals;
+
+static bool compare_gates(json_t *entry, const json_t *before) {
+  json_t *gates_before = gates_by_key(before);
+  bool done = gates_before;
+  for (size_t i = 0; done && i < report_count(entry, "gates"); i++)
+    done = compare_gate(entry, i, gates_before);
+  json_decref(gates_before);
+  return done;
+}
+
+static bool compare_entry(json_t *entry, const json_t *before, totals *t) {
+  if (!compare_gates(entry, before)) return false;
+  json_t *gates_now = gates_by_key(entry);
+  json_t *gone = gates_now ? gone_gates(gates_now, before) : NULL, *block = json_object();
+  json_decref(gates_now);
   for (int i = 0; i < CHANGES; i++) {
     size_t count = report_changed_gates(entry, changes[i]);
     json_object_set_new(block, changes[i], json_integer((json_int_t)count));
-    total[i] += count;
+    t->changed[i] += count;
   }
-  *gone_total += json_array_size(gone);
-  return json_object_set_new(block, "gone", gone) == 0 &&
-         json_object_set_new(entry, "baseline", block) == 0;
+  t->gone += json_array_size(gone);
+  if (json_object_set_new(block, "gone", gone) == 0)
+    return json_object_set_new(entry, "baseline", block) == 0;
+  json_decref(block);
+  return false;
+}
+
+//---------------------------------- documents -----------------------------------------------------
+
+// Names of scenarios that the baseline has and the document has not. NULL when out of memory.
+static json_t *missing_scenarios(const json_t *document, const json_t *baseline) {
+  size_t i;
+  const json_t *entry;
+  json_t *index = scenarios_by_name(document), *missing = index ? json_array() : NULL;
+  json_array_foreach(json_object_get(baseline, "scenarios"), i, entry) {
+    json_t *name = json_object_get(entry, "name");
+    if (!missing || json_object_get(index, json_string_value(name))) continue;
+    if (json_array_append(missing, name) == 0) continue;
+    json_decref(missing);
+    missing = NULL;
+  }
+  json_decref(index);
+  return missing;
+}
+
+static bool compare_entries(json_t *document, const json_t *baseline, totals *t) {
+  size_t i;
+  json_t *entry, *index = scenarios_by_name(baseline);
+  bool done = index;
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    done = done && compare_entry(entry, json_object_get(index, report_text(entry, "name")), t);
+  }
+  json_decref(index);
+  return done;
 }
 
 bool baseline_compare(json_t *document, const json_t *baseline) {
-  size_t i, total[CHANGES] = {0}, gone = 0;
-  json_t *entry;
+  totals t = {0};
   const json_t *origin = json_object_get(baseline, "provenance");
-  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
-    const json_t *before = entry_named(baseline, report_text(entry, "name"));
-    if (!compare_entry(entry, before, total, &gone)) return false;
-  }
+  if (!compare_entries(document, baseline, &t)) return false;
   json_t *block =
       json_pack("{s:s, s:s, s:s}", "created", report_text(origin, "created"), "project",
                 report_text(origin, "project"), "compiler", report_text(origin, "compiler"));
   for (int k = 0; k < CHANGES; k++)
-    json_object_set_new(block, changes[k], json_integer((json_int_t)total[k]));
-  json_object_set_new(block, "gone", json_integer((json_int_t)gone));
-  return json_object_set_new(document, "baseline", block) == 0;
+    json_object_set_new(block, changes[k], json_integer((json_int_t)t.changed[k]));
+  json_object_set_new(block, "gone", json_integer((json_int_t)t.gone));
+  if (json_object_set_new(block, "missing", missing_scenarios(document, baseline)) == 0)
+    return json_object_set_new(document, "baseline", block) == 0;
+  json_decref(block);
+  return false;
 }
 
 bool baseline_is_worse(const json_t *document) {
   const json_t *block = json_object_get(document, "baseline");
-  return report_real(block, "worse") > 0 || report_real(block, "gone") > 0;
+  return report_real(block, "worse") > 0 || report_real(block, "gone") > 0 ||
+         report_count(block, "missing") > 0;
 }

@@ -31,7 +31,10 @@ static void add_rows(term_table *table, const json_t *document, const char *chan
 
 static void print_gone(const json_t *document, FILE *stream) {
   size_t i, k;
-  const json_t *entry, *name;
+  const json_t *entry, *name, *block = json_object_get(document, "baseline");
+  json_array_foreach(json_object_get(block, "missing"), i, name) {
+    fprintf(stream, "missing scenario: %s\n", json_string_value(name));
+  }
   json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
     json_array_foreach(json_object_get(json_object_get(entry, "baseline"), "gone"), k, name) {
       fprintf(stream, "no longer measured: %s %s\n", report_text(entry, "name"),
@@ -52,6 +55,8 @@ static void print_counts(const json_t *block, bool worse, FILE *stream) {
   if (report_real(block, "new") > 0) fprintf(stream, ", %.0f new", report_real(block, "new"));
   if (report_real(block, "gone") > 0)
     fprintf(stream, ", %.0f no longer measured", report_real(block, "gone"));
+  size_t missing = report_count(block, "missing");
+  if (missing > 0) fprintf(stream, ", %zu scenario%s missing", missing, missing == 1 ? "" : "s");
   fputc('\n', stream);
 }
 
@@ -61,6 +66,9 @@ void baseline_print(const json_t *document, FILE *stream) {
       {"signal", TERM_LEFT}, {"metric", TERM_LEFT},   {"before", TERM_RIGHT},
       {"now", TERM_RIGHT},   {"noise", TERM_RIGHT},   {"from", TERM_LEFT}};
   const json_t *block = json_object_get(document, "baseline");
+  if (json_object_get(document, "baseline_problem"))
+    fprintf(stream, "%sNOT COMPARED%s with the baseline: %s\n", term_style_begin(stream, TERM_BAD),
+            term_style_end(stream, TERM_BAD), report_text(document, "baseline_problem"));
   if (!block) return;
   print_counts(block, baseline_is_worse(document), stream);
   print_gone(document, stream);

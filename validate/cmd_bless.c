@@ -3,6 +3,7 @@
 #include "cmd.h"
 
 #include "baseline.h"
+#include "files/text.h"
 #include "report_read.h"
 #include "terminal/command.h"
 
@@ -44,6 +45,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 static term_exit write_baseline(const json_t *document, const char *path) {
   bike_output output;
   bike_file_error error;
+  if (bike_text_is_named_pipe(path)) return term_fail(TERM_USAGE, "%s: is a named pipe", path);
   if (bike_output_begin(&output, path, &error) != 0) return term_fail(TERM_USAGE, "%s", error.text);
   bool written = json_dumpf(document, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0;
   fputc('\n', output.stream);

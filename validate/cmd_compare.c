@@ -13,7 +13,9 @@ static const char documentation[] =
     "Compares the report B with the earlier report A, files or folders: which metrics are better, "
     "the same or worse, "
     "beyond a noise floor from the convergence study or from rounding. Timings are not compared.\v"
-    "Exit status: 0 nothing is worse; 1 something is; 2 wrong usage; 4 a report is missing, is not "
+    "Exit status: 0 nothing is worse; 1 something is, or a gate or a scenario of A is missing in "
+    "B; "
+    "2 wrong usage; 4 a report is missing, is not "
     "one, or is of other rides.";
 
 typedef struct arguments {

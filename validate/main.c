@@ -88,30 +88,51 @@ static term_exit judge(const report *r, const json_t *document) {
   return code == TERM_DONE && baseline_is_worse(document) ? TERM_FAILED : code;
 }
 
+// A baseline, or why there is none to compare with.
+typedef struct yardstick {
+  json_t *document; // NULL: none was asked for, or it is missing
+  problem misfit;   // empty: it can be compared, or none was asked for
+} yardstick;
+
+// Adds the comparison, or why there is none: with exit status 4 every view tells that. False when
+// out of memory.
+static bool compare(json_t *document, yardstick *y, const char *path) {
+  if (y->document && baseline_match(document, y->document, &y->misfit) != TERM_DONE) {
+    problem_prefix(&y->misfit, TERM_BASELINE, path);
+    term_message("%s", y->misfit.text);
+  }
+  if (*y->misfit.text)
+    return json_object_set_new(document, "baseline_problem", term_json_text(y->misfit.text)) == 0;
+  return !y->document || baseline_compare(document, y->document);
+}
+
 // Compares, writes and prints. A baseline that does not fit costs no more than the comparison.
-static term_exit publish(const report *r, const json_t *baseline, const arguments *args) {
-  problem p = {""}, misfit = {""};
+static term_exit publish(const report *r, yardstick *y, const arguments *args) {
+  problem p = {""};
   json_t *document = report_document(r);
-  term_exit fits = document && baseline ? baseline_match(document, baseline, &misfit) : TERM_DONE;
-  bool ready = document && (!baseline || fits != TERM_DONE || baseline_compare(document, baseline));
+  bool ready = document && compare(document, y, args->baseline);
   term_exit code = ready ? report_write(r, document, args->output, &p) : problem_memory(&p);
   // A verdict without a report is not published: with exit status 2 nothing was.
   if (code == TERM_DONE) print(document, args);
   if (code != TERM_DONE)
     term_message("%s", p.text);
-  else if (report_verdict(r) != VERDICT_INVALID && fits != TERM_DONE)
-    code = term_fail(fits, "%s: %s", args->baseline, misfit.text);
+  else if (report_verdict(r) != VERDICT_INVALID && *y->misfit.text)
+    code = TERM_BASELINE;
   else
     code = judge(r, document);
   json_decref(document);
   return code;
 }
 
-// What can be wrong is found before the work, not after it.
-static term_exit prepare(suite *s, json_t **baseline, const arguments *args, problem *p) {
+// What can be wrong is found before the work, not after it. A baseline that is missing or damaged
+// is told at once; the report, from which one can be blessed, is made all the same.
+static term_exit prepare(suite *s, yardstick *y, const arguments *args, problem *p) {
   term_exit code = folder_check(args->output, p);
-  if (code == TERM_DONE && args->baseline) code = baseline_read(baseline, args->baseline, p);
-  if (code == TERM_DONE) code = suite_load(s, args->scenarios, args->count, p);
+  if (code == TERM_DONE && args->baseline) code = baseline_read(&y->document, args->baseline, p);
+  if (code == TERM_BASELINE) y->misfit = *p;
+  if (code == TERM_DONE || code == TERM_BASELINE)
+    code = suite_load(s, args->scenarios, args->count, p);
+  if (code == TERM_DONE && *y->misfit.text) term_message("%s", y->misfit.text);
   return code;
 }
 
@@ -119,21 +140,21 @@ static term_exit validate(const arguments *args) {
   problem p = {""};
   suite s = {0};
   report r = {0};
-  json_t *baseline = NULL;
+  yardstick y = {0};
   double begun = engine_clock();
   if (!provenance_begin(&r.provenance, args->scenarios, args->count))
     return term_fail(TERM_INVALID, "out of memory");
-  term_exit code = prepare(&s, &baseline, args, &p);
+  term_exit code = prepare(&s, &y, args, &p);
   if (code == TERM_DONE) code = suite_play(&s, args->jobs, &p);
   r.provenance.elapsed = engine_clock() - begun;
   if (code == TERM_DONE) {
     r.comparisons = s.comparisons;
     r.count = s.count;
-    code = publish(&r, baseline, args);
+    code = publish(&r, &y, args);
   } else {
     code = term_fail(code, "%s", p.text);
   }
-  json_decref(baseline);
+  json_decref(y.document);
   suite_clear(&s);
   provenance_clear(&r.provenance);
   return code;

@@ -57,7 +57,7 @@ static bool print_data(FILE *stream, const report *r, const json_t *document) {
   }
   char *text = done ? json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;
   if (!text) return false;
-  fputs("<script type='text/plain' id=report-json>", stream);
+  fputs("<script type='text/plain' id=/report-json>", stream);
   done = report_pack_text(stream, text);
   fputs("</script>\n", stream);
   free(text);

@@ -39,7 +39,7 @@ static void print_gate(FILE *stream, const report_gate *g, bool baseline, size_t
                 report_number(value, g->value), report_quantity(limit, g->limit, g->unit), time);
   if (baseline) print_change(stream, g);
   fputs("<td class=r>", stream);
-  if (reason) fprintf(stream, "<a href='#why%zu'>%zu</a>", reason, reason);
+  if (reason) fprintf(stream, "<a href='#/why%zu'>%zu</a>", reason, reason);
   report_markup(stream, "<td class=dim>%s</tr>\n", g->detail);
 }
 
@@ -62,9 +62,9 @@ bool report_html_gates(FILE *stream, const json_t *entry, report_reasons *reason
 
 void report_html_reasons(FILE *stream, const report_reasons *reasons) {
   if (reasons->count == 0) return;
-  fputs("<section id=reasons>\n<h2>Why the limits have their values</h2>\n<ol>\n", stream);
+  fputs("<section class=reasons>\n<h2>Why the limits have their values</h2>\n<ol>\n", stream);
   for (size_t i = 0; i < reasons->count; i++) {
-    fprintf(stream, "<li id=why%zu>", i + 1);
+    fprintf(stream, "<li id=/why%zu>", i + 1);
     report_markup(stream, "%s</li>\n", reasons->items[i]);
   }
   fputs("</ol>\n</section>\n", stream);

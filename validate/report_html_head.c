@@ -2,7 +2,6 @@
 // The first screen of report.html: the verdict, and all scenarios at a glance.
 #include "report_html.h"
 
-#include "baseline.h"
 #include "layer.h"
 #include "report_markup.h"
 #include "report_read.h"
@@ -40,7 +39,7 @@ static void print_closest(FILE *stream, const json_t *document) {
   if (!g.layer) return;
   report_markup(
       stream,
-      "<p>Closest to its limit: <a href='#%s'>%s</a>, %s %s %s: %s of %s (margin %s).</p>\n",
+      "<p>Closest to its limit: <a href='#%u'>%s</a>, %s %s %s: %s of %s (margin %s).</p>\n",
       report_text(entry, "name"), report_text(entry, "name"), g.layer, g.signal, g.metric_words,
       report_number(value, g.value), report_quantity(limit, g.limit, g.unit),
       report_margin(margin, report_gate_use(&g)));
@@ -50,28 +49,46 @@ static void print_failure(FILE *stream, const json_t *document) {
   const json_t *entry = report_first_failing(document);
   const layer *l = layer_find(report_text(document, "first_failure"));
   const char *name = entry ? report_text(entry, "name") : "";
-  report_markup(stream, "<p class=cause>First failure: <a href='#%s'>%s</a>, %s %s: %s</p>\n", name,
+  report_markup(stream, "<p class=cause>First failure: <a href='#%u'>%s</a>, %s %s: %s</p>\n", name,
                 name, l ? l->name : "", l ? l->title : "", report_text(document, "cause"));
 }
 
+static void print_names(FILE *stream, const char *words, const char *of, const json_t *names) {
+  size_t i;
+  const json_t *name;
+  json_array_foreach(names, i, name) {
+    report_markup(stream, "<p class=cause>%s: %s%s%s</p>\n", words, of, *of ? " " : "",
+                  json_string_value(name));
+  }
+}
+
 static void print_baseline(FILE *stream, const json_t *document) {
-  const json_t *b = json_object_get(document, "baseline");
+  size_t i;
+  const json_t *entry, *b = json_object_get(document, "baseline");
+  if (json_object_get(document, "baseline_problem"))
+    report_markup(stream, "<p class=cause>Not compared with the baseline: %s</p>\n",
+                  report_text(document, "baseline_problem"));
   if (!b) return;
   char counts[160];
   snprintf(counts, sizeof counts, "%.0f better, %.0f same, %.0f worse", report_real(b, "better"),
            report_real(b, "same"), report_real(b, "worse"));
   report_markup(stream, "<p>Against the baseline of %s: <b>%s</b>.</p>\n",
                 report_text(b, "created"), counts);
+  print_names(stream, "Missing scenario", "", json_object_get(b, "missing"));
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    print_names(stream, "No longer measured", report_text(entry, "name"),
+                json_object_get(json_object_get(entry, "baseline"), "gone"));
+  }
 }
 
 void report_html_verdict(FILE *stream, const json_t *document) {
   char counts[160];
   report_describe_counts(counts, sizeof counts, document);
   const json_t *origin = json_object_get(document, "provenance");
-  bool worse = report_agrees(document) && baseline_is_worse(document);
+  const char *but = report_baseline_words(document);
   report_markup(stream, "<header class='%s'>\n<h1>%s<span>: %s%s</span></h1>\n",
-                worse ? "worse" : report_text(document, "verdict"), verdict_words(document), counts,
-                worse ? ", but worse than the baseline" : "");
+                *but && report_agrees(document) ? "worse" : report_text(document, "verdict"),
+                verdict_words(document), counts, but);
   if (report_agrees(document))
     print_closest(stream, document);
   else
@@ -114,7 +131,7 @@ static bool is_gated(const json_t *document, const char *name) {
 
 static void print_row(FILE *stream, const json_t *document, const json_t *entry) {
   const json_t *a = report_engine(entry, "reference"), *b = report_engine(entry, "candidate");
-  report_markup(stream, "<tr><td class='%s'>%s<td><a href='#%s'>%s</a>",
+  report_markup(stream, "<tr><td class='%s'>%s<td><a href='#%u'>%s</a>",
                 report_text(entry, "verdict"), verdict_words(entry), report_text(entry, "name"),
                 report_text(entry, "name"));
   for (int i = 0; layer_at(i); i++)
@@ -126,9 +143,10 @@ static void print_row(FILE *stream, const json_t *document, const json_t *entry)
 void report_html_overview(FILE *stream, const json_t *document) {
   size_t i;
   const json_t *entry;
-  fputs("<section id=overview>\n<h2>Scenarios</h2>\n<div class=wide><table class=sortable><thead>"
-        "<tr><th>Verdict<th>Scenario",
-        stream);
+  fputs(
+      "<section class=overview>\n<h2>Scenarios</h2>\n<div class=wide><table class=sortable><thead>"
+      "<tr><th>Verdict<th>Scenario",
+      stream);
   for (int k = 0; layer_at(k); k++)
     if (is_gated(document, layer_at(k)->name))
       report_markup(stream, "<th>%s %s", layer_at(k)->name, layer_at(k)->title);

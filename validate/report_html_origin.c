@@ -48,7 +48,7 @@ static void print_timings(FILE *stream, const json_t *origin) {
 void report_html_provenance(FILE *stream, const json_t *document) {
   const json_t *origin = json_object_get(document, "provenance");
   report_markup(stream,
-                "<section id=provenance>\n<h2>Provenance</h2>\n<dl class=setup>\n<dt>To repeat"
+                "<section class=provenance>\n<h2>Provenance</h2>\n<dl class=setup>\n<dt>To repeat"
                 "<dd><code>%s</code>\n<dt>Made<dd>%s\n<dt>Program<dd>bicycle %s, schema %s\n"
                 "<dt>Compiler<dd>%s\n<dt>CPU<dd>%s\n<dt>Signs<dd>%s: lean right, steer, yaw and y "
                 "left positive\n</dl>\n",
@@ -59,6 +59,6 @@ void report_html_provenance(FILE *stream, const json_t *document) {
   print_hashes(stream, document);
   print_timings(stream, origin);
   fputs("<p>Plots with scripts: dygraphs, MIT licence, embedded. Everything on this page is a view "
-        "of <a id=json href='report.json'>report.json</a>.</p>\n</section>\n",
+        "of <a id=/json href='report.json'>report.json</a>.</p>\n</section>\n",
         stream);
 }

@@ -156,7 +156,7 @@ static void print_files(FILE *stream, const json_t *s) {
   fputs("<p class=files>Full precision, beside this page:", stream);
   json_array_foreach(json_object_get(s, "files"), i, name) {
     const char *text = json_string_value(name);
-    if (text) report_markup(stream, "%s <a href='%s'>%s</a>", i ? "," : "", text, text);
+    if (text) report_markup(stream, "%s <a href='%u'>%s</a>", i ? "," : "", text, text);
   }
   fputs("</p>\n", stream);
 }

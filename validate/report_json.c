@@ -26,7 +26,7 @@ const comparison *report_first_failure(const report *r) {
 }
 
 static json_t *text_or_null(const char *text) {
-  return text && *text ? json_string(text) : json_null();
+  return text && *text ? term_json_text(text) : json_null();
 }
 
 static json_t *first_failure_json(const comparison *c) {
@@ -77,7 +77,7 @@ static json_t *information_json(const comparison *c) {
 
 static json_t *options_json(const engine_choice *choice) {
   json_t *object = json_object();
-  if (choice->engine->plays_file) json_object_set_new(object, "file", json_string(choice->file));
+  if (choice->engine->plays_file) json_object_set_new(object, "file", term_json_text(choice->file));
   for (int i = 0; i < choice->engine->option_count; i++) {
     const engine_option *option = &choice->engine->options[i];
     json_t *value = option->choices ? json_string(option->choices[(int)choice->option[i]])
@@ -165,10 +165,10 @@ static json_t *timings_json(const report *r) {
 }
 
 static json_t *provenance_json(const report *r) {
-  return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:o}", "project", term_version(), "compiler",
+  return json_pack("{s:s, s:s, s:s, s:s, s:o, s:s, s:o}", "project", term_version(), "compiler",
                    provenance_compiler(), "cpu", r->provenance.cpu, "convention", "iso", "command",
-                   r->provenance.command, "created", r->provenance.created, "timings",
-                   timings_json(r));
+                   term_json_text(r->provenance.command), "created", r->provenance.created,
+                   "timings", timings_json(r));
 }
 
 static json_t *files_json(const report *r) {

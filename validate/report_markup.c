@@ -32,6 +32,16 @@ void report_escape(FILE *stream, const char *text) {
   }
 }
 
+void report_url(FILE *stream, const char *text) {
+  static const char plain[] = "-._~0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  for (; *text; text++) {
+    if (strchr(plain, *text))
+      fputc(*text, stream);
+    else
+      fprintf(stream, "%%%02X", (unsigned char)*text);
+  }
+}
+
 void report_markup(FILE *stream, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -42,6 +52,8 @@ void report_markup(FILE *stream, const char *format, ...) {
     }
     if (*++c == 's')
       report_escape(stream, va_arg(arguments, const char *));
+    else if (*c == 'u')
+      report_url(stream, va_arg(arguments, const char *));
     else
       fputc('%', stream);
   }

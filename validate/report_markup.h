@@ -9,8 +9,12 @@
 // Text for an element or a quoted attribute; what XML 1.0 cannot hold becomes U+FFFD.
 void report_escape(FILE *stream, const char *text);
 
-// The same, within printf: each %s of `format` is escaped, %% is a per cent sign, nothing else is
-// allowed. The arguments are const char *.
+// Text as one segment of a URL, or as its fragment: all but the unreserved characters of RFC 3986
+// is percent-encoded.
+void report_url(FILE *stream, const char *text);
+
+// Within printf: each %s of `format` is escaped, each %u written as report_url does, %% is a per
+// cent sign, nothing else is allowed. The arguments are const char *.
 void report_markup(FILE *stream, const char *format, ...);
 
 enum { REPORT_NUMBER = 48 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_read.h"
 
+#include "baseline.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -103,6 +105,12 @@ const json_t *report_first_failing(const json_t *document) {
     if (!report_agrees(document) && strcmp(report_text(entry, "verdict"), worst) == 0) return entry;
   }
   return NULL;
+}
+
+const char *report_baseline_words(const json_t *document) {
+  if (json_object_get(document, "baseline_problem")) return ", but not compared with the baseline";
+  return report_agrees(document) && baseline_is_worse(document) ? ", but worse than the baseline"
+                                                                : "";
 }
 
 const json_t *report_engine(const json_t *entry, const char *role) {

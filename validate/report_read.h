@@ -52,6 +52,10 @@ bool report_agrees(const json_t *object);
 // The first scenario that has the document's verdict; NULL where all agree.
 const json_t *report_first_failing(const json_t *document);
 
+// ", but worse than the baseline", ", but not compared with the baseline", or "": what the verdict
+// of a document does not say.
+const char *report_baseline_words(const json_t *document);
+
 // The engine of a scenario that plays a role: "reference", "candidate"; NULL if there is none.
 const json_t *report_engine(const json_t *entry, const char *role);
 

@@ -13,9 +13,39 @@ enum { SHOWN_FAILURES = 20 }; // of each scenario; the page has all
 // Text in a cell of a table: marks that Markdown would take for its own are escaped.
 static void print_text(FILE *stream, const char *text) {
   for (; *text; text++) {
-    if (strchr("\\`*_[]<>|#", *text)) fputc('\\', stream);
+    if (strchr("\\`*_[]<>|#&~", *text)) fputc('\\', stream);
     fputc(*text == '\n' ? ' ' : *text, stream);
   }
+}
+
+static void print_list(FILE *stream, const char *words, const char *of, const json_t *names) {
+  size_t i;
+  const json_t *name;
+  json_array_foreach(names, i, name) {
+    fprintf(stream, "- %s: ", words);
+    print_text(stream, of);
+    fputs(*of ? " " : "", stream);
+    print_text(stream, json_string_value(name));
+    fputc('\n', stream);
+  }
+}
+
+// Why there is no comparison with the baseline, or what it has and this run has not.
+static void print_baseline(FILE *stream, const json_t *document) {
+  size_t i;
+  const json_t *entry, *block = json_object_get(document, "baseline");
+  if (json_object_get(document, "baseline_problem")) {
+    fputs("Not compared with the baseline: ", stream);
+    print_text(stream, report_text(document, "baseline_problem"));
+    fputs("\n\n", stream);
+  }
+  if (report_count(block, "missing") == 0 && !(report_real(block, "gone") > 0)) return;
+  print_list(stream, "missing scenario", "", json_object_get(block, "missing"));
+  json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
+    print_list(stream, "no longer measured", report_text(entry, "name"),
+               json_object_get(json_object_get(entry, "baseline"), "gone"));
+  }
+  fputc('\n', stream);
 }
 
 static void print_verdict(FILE *stream, const json_t *document) {
@@ -25,7 +55,8 @@ static void print_verdict(FILE *stream, const json_t *document) {
   const char *words = strcmp(v, "agree") == 0  ? "Agree"
                       : strcmp(v, "fail") == 0 ? "Fail"
                                                : "Invalid";
-  fprintf(stream, "## %s: %s\n\n", words, counts);
+  fprintf(stream, "## %s: %s%s\n\n", words, counts, report_baseline_words(document));
+  print_baseline(stream, document);
   if (report_agrees(document)) return;
   fputs("First failure: ", stream);
   print_text(stream, report_text(document, "first_failure"));

@@ -320,7 +320,7 @@ term_exit scenario_read(scenario *out, const char *path, problem *p) {
     return problem_set(p, TERM_USAGE, "%s: the name of a scenario has 1 to %d characters", path,
                        SCENARIO_NAME - 1);
   strcpy(out->path, path);
-  memcpy(out->name, base, length);
+  bike_text_name(out->name, sizeof out->name, base, length); // links, files and JSON hold it
   int code = parse(out, &error);
   if (code == BIKE_OK) return TERM_DONE;
   scenario_clear(out);

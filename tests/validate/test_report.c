@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report: its structure, that it is the same twice, and what its folder may replace.
+#include "junit_check.h"
 #include "support/near.h"
 #include "validate_support.h"
 
 #include <dirent.h>
 #include <folder.h>
 #include <report.h>
+#include <report_markup.h>
 #include <report_pack.h>
 #include <report_read.h>
 #include <stdlib.h>
@@ -21,21 +23,27 @@ typedef struct fixture {
   report report;
 } fixture;
 
-static fixture *open_fixture(const char *text) {
+static fixture *open_named_fixture(const char *text, const char *name) {
   fixture *f = calloc(1, sizeof *f);
   problem p = {""};
   assert_non_null(f);
   f->home = support_folder();
   assert_true(asprintf(&f->target, "%s/report", f->home) > 0);
-  support_read_scenario(&f->scenario, f->home, text);
+  char *path = support_write(f->home, name, text);
+  assert_int_equal(scenario_read(&f->scenario, path, &p), TERM_DONE);
+  free(path);
   assert_int_equal(comparison_open(&f->comparison, &f->scenario, &p), TERM_DONE);
   assert_int_equal(comparison_run(&f->comparison, &p), TERM_DONE);
-  char argument[] = "it's mine.yml";
+  char argument[] = "it's mine\xff.yml"; // no UTF-8
   char *arguments[] = {argument};
   assert_true(provenance_begin(&f->report.provenance, arguments, 1));
   f->report.comparisons = &f->comparison;
   f->report.count = 1;
   return f;
+}
+
+static fixture *open_fixture(const char *text) {
+  return open_named_fixture(text, "test.yml");
 }
 
 static void close_fixture(fixture *f) {
@@ -113,7 +121,7 @@ static void test_structure(void **state) {
   assert_int_equal(json_array_size(gates), f->comparison.gates.count);
   for (size_t i = 0; i < json_array_size(gates); i++) check_gate(json_array_get(gates, i));
   const json_t *origin = json_object_get(document, "provenance");
-  assert_string_equal(text_of(origin, "command"), "bicycle validate 'it'\\''s mine.yml'");
+  assert_string_equal(text_of(origin, "command"), "bicycle validate 'it'\\''s mine\ufffd.yml'");
   assert_non_null(text_of(origin, "compiler"));
   assert_non_null(text_of(origin, "cpu"));
   const json_t *engines = json_object_get(s, "engines");
@@ -195,6 +203,16 @@ static char *view_of(const fixture *f, const char *name) {
   return text;
 }
 
+static char *escaped(const char *text) {
+  char *out = NULL;
+  size_t size;
+  FILE *stream = open_memstream(&out, &size);
+  assert_non_null(stream);
+  report_escape(stream, text);
+  assert_int_equal(fclose(stream), 0);
+  return out;
+}
+
 // A title that every kind of markup would take for its own, and a gate that fails.
 static const char hostile[] = "title: '</script><b>&\"|x'";
 
@@ -216,14 +234,81 @@ static void test_views_escape(void **state) {
   expect_part(junit, "tests=\"");
   expect_part(junit, "<failure message=\"");
   expect_part(junit, "classname=\"test.L2\" name=\"lean max\"");
+  // A reader of the failure alone learns the cause.
+  char *cause = escaped(f->comparison.cause), *message = NULL;
+  assert_true(asprintf(&message, " rad, limit 1e-22 rad, at 0.5 s: %s\">", cause) > 0);
+  expect_part(junit, message);
+  free(cause);
+  free(message);
+  junit_check(junit);
   expect_part(summary, "## Fail: 1 scenario, 2 of ");
-  expect_part(summary, "\\</script\\>\\<b\\>&\"\\|x");
+  expect_part(summary, "\\</script\\>\\<b\\>\\&\"\\|x");
   expect_part(summary, "- `L2 lean max`: ");
   free(html);
   free(junit);
   free(summary);
   close_fixture(f);
   free(text);
+}
+
+// The text between two others.
+static char *between(const char *text, const char *before, const char *after) {
+  const char *begin = strstr(text, before);
+  assert_non_null(begin);
+  begin += strlen(before);
+  const char *end = strstr(begin, after);
+  assert_non_null(end);
+  return strndup(begin, (size_t)(end - begin));
+}
+
+// What a browser makes of a link: %XX undone.
+static char *decoded(const char *link) {
+  char *out = calloc(1, strlen(link) + 1), *to = out;
+  unsigned byte;
+  for (const char *at = link; *at; at++) {
+    assert_null(strchr(" #?<>\"'\\:;&", *at));
+    if (*at == '%') {
+      assert_int_equal(sscanf(at + 1, "%2x", &byte), 1);
+      *to++ = (char)byte;
+      at += 2;
+    } else {
+      *to++ = *at;
+    }
+  }
+  return out;
+}
+
+// Links lead to the scenario and its files whatever the scenario is called; the page's own marks
+// are no scenario's name; what is not UTF-8 does not keep the report from being written.
+static void test_links_of_odd_names(void **state) {
+  (void)state;
+  static const struct {
+    const char *file, *name;
+  } names[] = {{"50%25 #1?.yml", "50%25 #1?"},
+               {"a'b\"<&c>;.yml", "a'b\"<&c>;"},
+               {"javascript:x.yml", "javascript:x"},
+               {"\u00fc \u6b21.yml", "\u00fc \u6b21"},
+               {"json.yml", "json"},
+               {"x\xff\ty.yml", "x??y"}};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    fixture *f = open_named_fixture(support_scenario_text, names[i].file);
+    problem p = {""};
+    assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
+    char *html = view_of(f, "report.html"), *id = escaped(names[i].name), *section = NULL;
+    assert_true(asprintf(&section, "<section class=scenario id='%s'>", id) > 0);
+    expect_part(html, section);
+    assert_null(strstr(html, "id=json"));
+    char *link = between(html, "Closest to its limit: <a href='#", "'"), *name = decoded(link);
+    assert_string_equal(name, names[i].name);
+    char *file_link = between(html, "beside this page: <a href='", "'");
+    char *file = decoded(file_link), *path = beside(f, file);
+    assert_int_equal(access(path, R_OK), 0);
+    char *junit = view_of(f, "junit.xml");
+    junit_check(junit);
+    char *const texts[] = {html, id, section, link, name, file_link, file, path, junit};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) free(texts[k]);
+    close_fixture(f);
+  }
 }
 
 // The closest gate of all is of a part of the ride, and the page says so.
@@ -279,6 +364,7 @@ static void test_views_of_invalid_run(void **state) {
   expect_part(html, "There is no ride to show");
   expect_part(junit, "errors=\"1\"");
   expect_part(junit, "<error message=\"");
+  junit_check(junit);
   free(html);
   free(junit);
   close_fixture(f);
@@ -385,6 +471,7 @@ int main(void) {
       cmocka_unit_test(test_same_twice),
       cmocka_unit_test(test_csv),
       cmocka_unit_test(test_views_escape),
+      cmocka_unit_test(test_links_of_odd_names),
       cmocka_unit_test(test_page_names_the_part),
       cmocka_unit_test(test_gates_by_margin),
       cmocka_unit_test(test_views_of_invalid_run),

@@ -10,7 +10,7 @@ function save(name, type, text) {
 }
 
 async function saveJson() {
-  save('report.json', 'application/json', await inflate(document.getElementById('report-json').textContent));
+  save('report.json', 'application/json', await inflate(document.getElementById('/report-json').textContent));
 }
 
 // The traces as they stand here: to some 7 digits; the files beside the page hold 17.

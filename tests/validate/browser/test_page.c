@@ -192,13 +192,17 @@ static void test_sorting(void **state) {
 }
 
 // Opens a scenario by the link in the overview.
-static void open_scenario(const char *name) {
+static void open_linked_scenario(const char *name, const char *link) {
   char text[96];
   open_page(&wide);
-  snprintf(text, sizeof text, "#overview a[href='#%s']", name);
+  snprintf(text, sizeof text, ".overview a[href='#%s']", link);
   devtools_point(browser, text, 0.5, true);
   snprintf(text, sizeof text, "Boolean(explorers.get('%s'))", name);
   devtools_wait(browser, text);
+}
+
+static void open_scenario(const char *name) {
+  open_linked_scenario(name, name);
 }
 
 static void test_other_scenario(void **state) {
@@ -216,16 +220,17 @@ static void test_other_scenario(void **state) {
 // A reference of 3 s and a candidate of 10 s: what is left is the candidate's.
 static void test_longer_candidate_is_shown_whole(void **state) {
   (void)state;
-  open_scenario("longer");
+  open_linked_scenario("50%25 #1?", "50%2525%20%231%3F"); // a name full of marks of addresses
   expect(plots_drawn);
-  expect("(() => { const d = explorers.get('longer').data, a = d.column('reference', 'lean'), b = "
-         "d.candidate('lean'); return d.rows === 1001 && Number.isFinite(a[300]) && "
-         "a.slice(301).every(Number.isNaN) "
-         "&& b.every(Number.isFinite) && Math.abs(b[300] - a[300]) < 1e-6 && Math.abs(b[301] - "
-         "b[300]) < 0.01; })()");
-  json_decref(devtools_evaluate(browser, "void explorers.get('longer').group.set('row', 900)"));
-  devtools_wait(browser, "explorers.get('longer').replay.drawn === 900");
-  expect("(({has}) => !has[0][900] && has[1][900])(explorers.get('longer').replay)");
+  expect(
+      "(() => { const d = explorers.get('50%25 #1?').data, a = d.column('reference', 'lean'), b = "
+      "d.candidate('lean'); return d.rows === 1001 && Number.isFinite(a[300]) && "
+      "a.slice(301).every(Number.isNaN) "
+      "&& b.every(Number.isFinite) && Math.abs(b[300] - a[300]) < 1e-6 && Math.abs(b[301] - "
+      "b[300]) < 0.01; })()");
+  json_decref(devtools_evaluate(browser, "void explorers.get('50%25 #1?').group.set('row', 900)"));
+  devtools_wait(browser, "explorers.get('50%25 #1?').replay.drawn === 900");
+  expect("(({has}) => !has[0][900] && has[1][900])(explorers.get('50%25 #1?').replay)");
   picture("longer");
 }
 
@@ -295,7 +300,7 @@ static void test_json_is_that_of_the_file(void **state) {
   (void)state;
   open_page(&wide);
   json_t *held = devtools_evaluate(
-      browser, "inflate(document.getElementById('report-json').textContent).then((b) => new "
+      browser, "inflate(document.getElementById('/report-json').textContent).then((b) => new "
                "TextDecoder().decode(b))");
   char *text = support_output("report/report.json");
   text[strlen(text) - 1] = '\0'; // its last line feed
@@ -351,11 +356,11 @@ static const char longer[] =
 static int begin(void **state) {
   char *command = NULL, *profile = NULL;
   support_enter(state);
-  free(support_write(support_home, "longer.yml", longer));
+  free(support_write(support_home, "50%25 #1?.yml", longer));
   assert_true(asprintf(&command,
                        "cd %s && exec >out 2>&1 && " PROGRAM "roadster_far -o first && head -n 302 "
                        "first/roadster_far-analytic.csv >short.csv && " PROGRAM
-                       "roadster_far convergence_rk4 disc longer.yml -o report",
+                       "roadster_far convergence_rk4 disc '50%%25 #1?.yml' -o report",
                        support_home) > 0);
   assert_int_equal(system(command), 0);
   assert_true(asprintf(&address, "file://%s/report/report.html", support_home) > 0);
