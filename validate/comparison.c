@@ -132,6 +132,29 @@ term_exit comparison_ride_also(trace *out, comparison *c, const engine_choice *c
   return code;
 }
 
+// Of what a side's recording holds, NaN or infinities matter in signals that a layer needs: the
+// first of these, or NULL.
+static const trace_flaw *find_flaw(const comparison *c, const trace *t) {
+  const trace_flaw *first = NULL;
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) {
+    const trace_flaw *flaw = &t->flaws[i];
+    if (!flaw->place || (first && first->row <= flaw->row)) continue;
+    if (layer_needs(c, &trace_signals[i], flaw->row)) first = flaw;
+  }
+  return first;
+}
+
+static term_exit check_flaws(const comparison *c, problem *p) {
+  for (int i = 0; i < 2; i++) {
+    const comparison_side *side = &c->side[i];
+    const trace_flaw *flaw = find_flaw(c, &side->trace);
+    if (flaw)
+      return problem_set(p, TERM_INVALID, "%s: %s: not a finite number at %.9g s", side->label,
+                         flaw->place, side->trace.rows[flaw->row].sample.time);
+  }
+  return TERM_DONE;
+}
+
 term_exit comparison_ride(comparison *c, problem *p) {
   term_exit code = TERM_DONE;
   if (c->ridden) return TERM_DONE;
@@ -140,6 +163,7 @@ term_exit comparison_ride(comparison *c, problem *p) {
     code = ride(&s->trace, c, s->engine, s->instance, &c->scenario->start, p);
     if (code != TERM_DONE) problem_prefix(p, code, s->label);
   }
+  if (code == TERM_DONE) code = check_flaws(c, p);
   if (code == TERM_DONE && c->scenario->horizon.asked) code = horizon_find(c, p);
   c->ridden = code == TERM_DONE;
   return code;

@@ -96,6 +96,7 @@ static term_exit find_columns(recording *r, const engine_choice *choice, problem
 static term_exit open_file(recording *r, problem *p) {
   bike_file_error error;
   int code = bike_csv_open(&r->reader, r->path, &error);
+  r->reader.not_finite = true; // what is not needed does not matter; what is, is told by the ride
   return code == BIKE_OK ? TERM_DONE : problem_set(p, term_exit_of(code), "%s", error.text);
 }
 
@@ -131,10 +132,26 @@ typedef struct playing {
   long rows;                        //    read so far
   long next, last;                  //    samples: the one waited for, and the ride's last
   problem gap;                      //    the first sample that the file passes over; empty: none
+  bool lost;                        //    a row has no time: what follows it cannot be placed
 } playing;
 
 static double value_of(const playing *g, const source *s) {
   return g->numbers[s->column] * s->scale;
+}
+
+static const char *column_of(const playing *g, const source *s) {
+  return g->r->reader.header.name[s->column];
+}
+
+// Notes where a signal is not finite for the first time; false when out of memory.
+static bool note_flaw(playing *g, const source *s) {
+  trace_flaw *flaw = &g->out->flaws[s->signal - trace_signals];
+  if (flaw->place) return true;
+  flaw->row = g->out->count;
+  if (asprintf(&flaw->place, "%s:%ld: %s", g->r->path, g->r->reader.line, column_of(g, s)) >= 0)
+    return true;
+  flaw->place = NULL;
+  return false;
 }
 
 static term_exit record(playing *g) {
@@ -145,6 +162,7 @@ static term_exit record(playing *g) {
   trace_row row = {.sample.time = (double)g->next * g->asked->sample};
   for (int i = 0; i < g->r->signal_count; i++) {
     double value = value_of(g, &g->r->signals[i]);
+    if (!isfinite(value) && !note_flaw(g, &g->r->signals[i])) return TERM_INVALID;
     memcpy((char *)&row + g->r->signals[i].signal->offset, &value, sizeof value);
   }
   g->next++;
@@ -162,14 +180,25 @@ static void note_gap(playing *g) {
               g->rows > 1 ? before : " is the first");
 }
 
+// A row without a time matters up to the end of the ride; it makes the ride invalid, not the input.
+static term_exit take_lost_row(playing *g, problem *p) {
+  if (g->next > g->last) return TERM_DONE;
+  g->lost = true;
+  if (!g->out) return TERM_DONE;
+  return problem_set(p, TERM_INVALID, "%s:%ld: %s: the time is not finite", g->r->path,
+                     g->r->reader.line, column_of(g, &g->r->time));
+}
+
 static term_exit take_row(playing *g, problem *p) {
   double slack = same_time * g->asked->sample, wanted = (double)g->next * g->asked->sample;
+  double time = value_of(g, &g->r->time);
+  if (!isfinite(time)) return take_lost_row(g, p);
   g->before = g->time;
-  g->time = value_of(g, &g->r->time);
+  g->time = time;
   if (g->rows++ > 0 && !(g->time > g->before))
     return problem_set(p, TERM_USAGE, "%s:%ld: %s: the time does not rise: %.9g s after %.9g s",
-                       g->r->path, g->r->reader.line, g->r->reader.header.name[g->r->time.column],
-                       g->time, g->before);
+                       g->r->path, g->r->reader.line, column_of(g, &g->r->time), g->time,
+                       g->before);
   if (g->next > g->last || g->time < wanted - slack) return TERM_DONE;
   if (g->time > wanted + slack) {
     note_gap(g);
@@ -203,7 +232,7 @@ static term_exit play(playing *g, problem *p) {
     if (read != BIKE_OK) return problem_set(p, term_exit_of(read), "%s", error.text);
     if (!found) return end(g, p);
     term_exit code = take_row(g, p);
-    if (code != TERM_DONE) return code;
+    if (code != TERM_DONE || g->lost) return code;
   }
 }
 

@@ -17,6 +17,10 @@ typedef struct layer {
   // Whether the layer measures that metric of that signal; NULL: of any signal.
   bool (*knows)(const char *signal, const char *metric);
 
+  // Whether it judges or compares that signal of a side in that row, which both traces may have;
+  // NULL: no signals of rides, or none but those of other layers.
+  bool (*needs)(const comparison *c, const trace_signal *signal, size_t row);
+
   // Asks both engines and adds what comes out to the comparison's measurements.
   term_exit (*measure)(comparison *c, problem *p);
 
@@ -31,6 +35,9 @@ extern const layer layer_parameters, layer_instant, layer_linear, layer_traces, 
 // All layers in order; NULL beyond the last.
 const layer *layer_at(int index);
 const layer *layer_find(const char *name);
+
+// Whether any layer needs it.
+bool layer_needs(const comparison *c, const trace_signal *signal, size_t row);
 
 // True if `word` is one of a NULL-terminated list.
 bool layer_names(const char *const *list, const char *word);

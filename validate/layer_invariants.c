@@ -102,11 +102,25 @@ static bool knows(const char *signal, const char *metric) {
   return !signal || layer_names(contacts, signal) || layer_names(demands, signal);
 }
 
+// What a gate of the scenario judges; work is part of the energy's balance.
+static bool needs(const comparison *c, const trace_signal *signal, size_t row) {
+  const gate_rules *rules = &c->scenario->rules;
+  const char *name = strcmp(signal->name, "work") == 0 ? "energy" : signal->name;
+  (void)row;
+  for (size_t i = 0; i < rules->count; i++) {
+    const gate_rule *rule = &rules->items[i];
+    const measurement m = measurement_of(layer_invariants.name, name, rule->metric, "");
+    if (!rule->information && gate_rule_names(rule, &m) && knows(name, rule->metric)) return true;
+  }
+  return false;
+}
+
 const layer layer_invariants = {
     .name = "L3",
     .title = "invariants",
     .agreed = "each ride keeps the laws that hold for every ride",
     .failure = "an engine breaks a law that holds for every ride",
     .knows = knows,
+    .needs = needs,
     .measure = measure,
 };

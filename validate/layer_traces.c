@@ -298,6 +298,17 @@ static bool knows(const char *signal, const char *metric) {
   return false;
 }
 
+// What both sides have is compared, judged or not.
+static bool needs(const comparison *c, const trace_signal *signal, size_t row) {
+  const comparison_side *a = &c->side[REFERENCE], *b = &c->side[CANDIDATE];
+  if (row >= comparison_rows(c)) return false;
+  for (int i = 0; forces[i]; i++)
+    if (strncmp(signal->name, forces[i], strlen(forces[i])) == 0)
+      return has_force(a, i) && has_force(b, i);
+  return layer_names(compared, signal->name) && trace_has(&a->trace, signal) &&
+         trace_has(&b->trace, signal);
+}
+
 // Events are located within a step of some milliseconds, by interpolation.
 static const gate_rule rules[] = {
     {.metric = "difference",
@@ -314,6 +325,7 @@ const layer layer_traces = {
     .agreed = "the rides agree",
     .failure = "the rides differ: the integration or the start does",
     .knows = knows,
+    .needs = needs,
     .measure = measure,
     .rules = rules,
     .rule_count = sizeof rules / sizeof rules[0],

@@ -19,6 +19,12 @@ const layer *layer_find(const char *name) {
   return NULL;
 }
 
+bool layer_needs(const comparison *c, const trace_signal *signal, size_t row) {
+  for (int i = 0; i < LAYER_COUNT; i++)
+    if (layers[i]->needs && layers[i]->needs(c, signal, row)) return true;
+  return false;
+}
+
 bool layer_names(const char *const *list, const char *word) {
   for (; *list; list++)
     if (strcmp(*list, word) == 0) return true;

@@ -52,6 +52,7 @@ bool trace_add(trace *t, const trace_row *row) {
 
 void trace_clear(trace *t) {
   free(t->rows);
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++) free(t->flaws[i].place);
   *t = (trace){0};
 }
 
@@ -109,8 +110,8 @@ static bool may_be_not_finite(const trace_signal *signal) {
 long trace_first_not_finite(const trace *t) {
   for (size_t k = 0; k < t->count; k++)
     for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
-      if (!may_be_not_finite(&trace_signals[i]) && trace_has(t, &trace_signals[i]) &&
-          !isfinite(trace_value(&t->rows[k], &trace_signals[i])))
+      if (!may_be_not_finite(&trace_signals[i]) && !t->flaws[i].place &&
+          trace_has(t, &trace_signals[i]) && !isfinite(trace_value(&t->rows[k], &trace_signals[i])))
         return (long)k;
   return -1;
 }

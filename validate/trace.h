@@ -14,6 +14,15 @@ typedef struct trace_row {
   double height[2];      // m    of the wheel's lowest point above the ground
 } trace_row;
 
+// Every column of `bicycle ride` after time, and what only the comparator looks at.
+enum { TRACE_SIGNAL_COUNT = 27 };
+
+// Where a recording first holds no finite number for a signal.
+typedef struct trace_flaw {
+  size_t row;  //
+  char *place; // "ride.csv:3: roll [deg]", allocated; NULL: nowhere
+} trace_flaw;
+
 typedef struct trace {
   trace_row *rows;
   size_t count, room;
@@ -27,6 +36,7 @@ typedef struct trace {
   long evaluations;   // of the right-hand sides; as steps
   double wall_time;   // s    of the integrator, elapsed
   double cpu_time;    // s    of that the time for which it had a processor
+  trace_flaw flaws[TRACE_SIGNAL_COUNT]; // of an engine that plays what others have recorded
 } trace;
 
 // Appends a row; false when out of memory.
@@ -49,8 +59,6 @@ typedef struct trace_signal {
   size_t offset; // of a double within trace_row
 } trace_signal;
 
-// Every column of `bicycle ride` after time, and what only the comparator looks at.
-enum { TRACE_SIGNAL_COUNT = 27 };
 extern const trace_signal trace_signals[TRACE_SIGNAL_COUNT];
 
 const trace_signal *trace_find_signal(const char *name);
@@ -62,7 +70,7 @@ bool trace_has(const trace *t, const trace_signal *signal);
 double trace_value(const trace_row *row, const trace_signal *signal);
 
 // Index of the first row in which a number is not finite, or -1. Friction (a quotient of forces)
-// is left out: it is not finite where a wheel carries nothing.
+// is left out: it is not finite where a wheel carries nothing. So are signals with a known flaw.
 long trace_first_not_finite(const trace *t);
 
 #endif

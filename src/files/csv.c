@@ -153,6 +153,7 @@ int bike_csv_next(double *row, bool *found, bike_csv_reader *r, bike_file_error 
     const size_t length = (size_t)(cell.end - cell.begin);
     const char *wrong = bike_number_parse(&row[i], cell.begin, length);
     if (!wrong) continue;
+    if (r->not_finite && bike_number_is_not_finite(&row[i], cell.begin, length)) continue;
     char what[128];
     snprintf(what, sizeof what, "'%.*s' %s", length < SHOWN ? (int)length : SHOWN, cell.begin,
              wrong);

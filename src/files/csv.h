@@ -31,18 +31,20 @@ void bike_csv_write_row(FILE *stream, const double values[], int count);
 // A table that is read on: whatever its length, it takes no more memory than its longest line.
 typedef struct bike_csv_reader {
   bike_csv_header header;
-  long line;         // of the row last read, from 1
-  char *path;        //
-  FILE *stream;      //
-  char *buffer;      // of `size` bytes; what is read and not yet taken: begin .. end
+  long line;    // of the row last read, from 1
+  char *path;   //
+  FILE *stream; //
+  char *buffer; // of `size` bytes; what is read and not yet taken: begin .. end
   size_t size, begin, end;
-  bool at_end;       // nothing follows in the stream
+  bool at_end;     // nothing follows in the stream
+  bool not_finite; // to be set: NaN and infinities are read too
 } bike_csv_reader;
 
 // Opens a file and reads its header. Close it in any case.
 int bike_csv_open(bike_csv_reader *out, const char *path, bike_file_error *error);
 
-// The numbers of the next row, header.columns of them, all finite. `found` is false at the end.
+// The numbers of the next row, header.columns of them, all finite without `not_finite`. `found` is
+// false at the end.
 int bike_csv_next(double *row, bool *found, bike_csv_reader *reader, bike_file_error *error);
 void bike_csv_close(bike_csv_reader *reader);
 

@@ -54,19 +54,24 @@ static const char file_scenario[] =
     "gates:\n  - {layer: L2, metric: max, signals: [lean], limit: 1e-12, reason: test}\n";
 
 // A scenario whose candidate is a file beside it.
-static support_run *open_recording(const char *csv, const char *columns, problem *p,
-                                   term_exit *code) {
-  char file[900];
+static support_run *open_scenario(const char *text, const char *csv, problem *p, term_exit *code) {
   support_run *run = calloc(1, sizeof *run);
   assert_non_null(run);
   run->folder = support_folder();
   free(support_write(run->folder, "ride.csv", csv));
-  snprintf(file, sizeof file, "file: ride.csv%s", columns);
-  char *text = support_replace(file_scenario, "file: ride.csv", file);
   support_read_scenario(&run->scenario, run->folder, text);
-  free(text);
   *code = comparison_open(&run->comparison, &run->scenario, p);
   if (*code == TERM_DONE) *code = comparison_run(&run->comparison, p);
+  return run;
+}
+
+static support_run *open_recording(const char *csv, const char *columns, problem *p,
+                                   term_exit *code) {
+  char file[900];
+  snprintf(file, sizeof file, "file: ride.csv%s", columns);
+  char *text = support_replace(file_scenario, "file: ride.csv", file);
+  support_run *run = open_scenario(text, csv, p, code);
+  free(text);
   return run;
 }
 
@@ -128,7 +133,8 @@ static void test_wrong_recordings(void **state) {
       {"time,lean\n0,0\n0.1,0\n0.3,0\n", "", "ride.csv:4: there is no row at 0.2 s"},
       {"time,lean\n0,0\n0.11,0\n0.21,0\n0.3,0\n", "", "ride.csv:3: there is no row at 0.1 s"},
       {"time,lean\n0.1,0\n0.2,0\n0.3,0\n", "", "there is no row at 0 s"},
-      {"time,lean\n0,0\n0.1,nan\n0.2,0\n0.3,0\n", "", "ride.csv:3: lean: 'nan'"},
+      {"time,lean,speed\n0,0,nan\n0.1,1e999,5\n0.2,0,5\n0.3,0,5\n", "",
+       "ride.csv:3: lean: '1e999'"},
       {"time,lean\n0,0\n0.1\n0.2,0\n0.3,0\n", "", "ride.csv:3: lean: the number is missing"},
       {"time,lean\n0,0\n", "", "two rows at least, there is 1"},
       {"time,lean\n", "", "two rows at least, there are 0"},
@@ -141,6 +147,70 @@ static void test_wrong_recordings(void **state) {
     assert_int_equal(code, TERM_USAGE);
     if (!strstr(p.text, cases[i].says)) fail_msg("'%s' does not say '%s'", p.text, cases[i].says);
     support_close(f);
+  }
+}
+
+// NaN and infinities make a ride invalid where something needs them, and the cause says where they
+// stand; elsewhere they do not matter.
+static void test_not_finite_recordings(void **state) {
+  (void)state;
+  static const struct {
+    const char *csv, *columns, *says; // NULL: the ride is judged
+  } cases[] = {
+      {"time,lean\n0,0\n0.1,nan\n0.2,0\n0.3,0\n", "",
+       "ride.csv:3: lean: not a finite number at 0.1 s"},
+      {"time,roll [deg]\n0,0\n0.1,0\n0.2,-Infinity\n0.3,0\n",
+       ", columns: {time: time, lean: 'roll [deg]'}",
+       "ride.csv:4: roll [deg]: not a finite number at 0.2 s"},
+      {"time,lean\n0,0\n0.1,1e300\n0.2,0\n0.3,0\n",
+       ", columns: {time: time, lean: {column: lean, scale: 1e300}}",
+       "ride.csv:3: lean: not a finite"},
+      {"time,lean,yaw\n0,0,0\n0.1,0,-nan(ind)\n0.2,1.#QNAN,0\n0.3,0,0\n", "",
+       "ride.csv:3: yaw: not a finite number at 0.1 s"}, // compared; the first of two
+      {"time,lean\n0,0\n.nan,0\n0.2,0\n0.3,0\n", "", "ride.csv:3: time: the time is not finite"},
+      {"time,lean,torque\n0,0,nan\n0.1,0,inf\n0.2,0,nan\n0.3,0,nan\n", "", NULL}, // no signal
+      {"time,lean,rear_normal,energy\n0,0,nan,nan\n0.1,0,inf,0\n0.2,0,nan,0\n0.3,0,nan,0\n", "",
+       NULL},
+      {"time,lean\n0,0\n0.05,nan\n0.1,0\n0.2,0\n0.3,0\n0.4,nan\nnan,0\n", "", NULL}, // other rows
+      {"time,lean,yaw\n0,0,0\n0.1,0,nan\n0.2,0,0\n0.3,0,0\n", ", columns: {time: time, lean: lean}",
+       NULL},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    problem p = {""};
+    term_exit code;
+    support_run *f = open_recording(cases[i].csv, cases[i].columns, &p, &code);
+    const scenario *s = &f->scenario;
+    const engine_ride ride = {.duration = s->duration, .sample = s->sample};
+    assert_int_equal(code, TERM_DONE);
+    p = (problem){""};
+    assert_int_equal(engine_file.check(&s->candidate, &ride, &p), TERM_DONE);
+    assert_string_equal(p.text, "");
+    assert_int_equal(f->comparison.verdict == VERDICT_INVALID, cases[i].says != NULL);
+    if (cases[i].says && !strstr(f->comparison.cause, cases[i].says))
+      fail_msg("'%s' does not say '%s'", f->comparison.cause, cases[i].says);
+    support_close(f);
+  }
+}
+
+// A signal that only a gate of L3 needs.
+static void test_not_finite_energy(void **state) {
+  (void)state;
+  static const char csv[] = "time,lean,energy,work\n0,0,9,0\n0.1,0,9,0\n0.2,0,9,nan\n0.3,0,9,0\n";
+  static const char *const gates[] = {
+      "gates:\n  - {layer: L3, metric: balance_max, limit: 1, reason: test}\n",
+      "gates:\n  - {layer: L3, metric: balance_max, info: true, reason: test}\n"};
+  for (int i = 0; i < 2; i++) {
+    problem p = {""};
+    term_exit code;
+    char *text = support_replace(file_scenario, "gates:\n", gates[i]);
+    support_run *f = open_scenario(text, csv, &p, &code);
+    assert_int_equal(code, TERM_DONE);
+    assert_int_equal(f->comparison.verdict == VERDICT_INVALID, i == 0);
+    if (i == 0)
+      assert_non_null(
+          strstr(f->comparison.cause, "ride.csv:4: work: not a finite number at 0.2 s"));
+    support_close(f);
+    free(text);
   }
 }
 
@@ -276,6 +346,8 @@ int main(void) {
       cmocka_unit_test(test_linear_falls),
       cmocka_unit_test(test_recorded_ride_agrees),
       cmocka_unit_test(test_wrong_recordings),
+      cmocka_unit_test(test_not_finite_recordings),
+      cmocka_unit_test(test_not_finite_energy),
       cmocka_unit_test(test_short_recording_ends_early),
       cmocka_unit_test_setup_teardown(test_two_million_rows, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_foreign_contacts, support_enter, support_leave),

@@ -51,6 +51,23 @@ static void test_invalid_run_is_3(void **state) {
   support_expect_text("bicycle-report/report.json", "\"verdict\": \"invalid\"");
 }
 
+// A recording with a NaN is invalid, and every view says where it stands.
+static void test_nan_recording_is_3(void **state) {
+  (void)state;
+  static const char *const views[] = {"out", "bicycle-report/report.json",
+                                      "bicycle-report/report.html", "bicycle-report/junit.xml",
+                                      "bicycle-report/summary.md"};
+  free(support_write(support_home, "nan.csv", "time,lean\n0,0\n0.01,nan\n0.02,0\n"));
+  free(support_write(support_home, "nan.yml",
+                     "title: nan\nbicycle: benchmark\nstart: {speed: 5}\nduration: 0.02\n"
+                     "sample: 0.01\nreference: {engine: analytic}\n"
+                     "candidate: {engine: file, file: nan.csv}\ngates:\n"
+                     "  - {layer: L2, metric: max, signals: [lean], limit: 1, reason: test}\n"));
+  assert_int_equal(support_validate("nan.yml"), 3);
+  for (size_t i = 0; i < sizeof views / sizeof *views; i++)
+    support_expect_text(views[i], "nan.csv:3: lean: not a finite number at 0.01 s");
+}
+
 static void test_usage_is_2(void **state) {
   (void)state;
   static const struct {
@@ -132,6 +149,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(test_shipped_scenarios_agree, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_failure_is_1, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_invalid_run_is_3, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_nan_recording_is_3, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_usage_is_2, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_no_verdict_without_report, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_json, support_enter, support_leave),
