@@ -245,8 +245,7 @@ const layer layer_instant = {
     .name = "L0",
     .title = "instant",
     .agreed = "the engines agree on instants",
-    .failure = "they say different things of an instant: the equations or the rolling constraint "
-               "differ",
+    .failure = "the engines differ at an instant",
     .knows = knows,
     .measure = measure,
 };

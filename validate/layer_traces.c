@@ -69,6 +69,12 @@ static metrics_peak find_end(comparison *c, const residual *part, const trace_si
   return (metrics_peak){fabs(part->error[last]), part->time[last]};
 }
 
+static metrics_peak find_start(comparison *c, const residual *part, const trace_signal *signal,
+                               const gate_rule *rule) {
+  (void)c, (void)signal, (void)rule;
+  return (metrics_peak){fabs(part->error[0]), part->time[0]};
+}
+
 // Root mean square over what the signal does: its range, or where that is less the nominal size
 // below which nobody looks: the rule's, or 1 cm, 1 cm/s or half a degree.
 static metrics_peak find_nrmse(comparison *c, const residual *part, const trace_signal *signal,
@@ -109,9 +115,10 @@ static const struct {
   bool on_request; // only where a rule asks
   bool relative;   // a pure number
 } metrics[] = {
-    {"max", find_max, false, false, false},   {"scaled_max", find_scaled_max, false, false, false},
-    {"rmse", find_rmse, false, false, false}, {"end", find_end, false, false, false},
-    {"nrmse", find_nrmse, true, false, true}, {"tube", find_tube, true, true, false},
+    {"max", find_max, false, false, false},    {"scaled_max", find_scaled_max, false, false, false},
+    {"rmse", find_rmse, false, false, false},  {"end", find_end, false, false, false},
+    {"nrmse", find_nrmse, true, false, true},  {"tube", find_tube, true, true, false},
+    {"start", find_start, true, false, false},
 };
 enum { METRIC_COUNT = sizeof metrics / sizeof *metrics };
 
@@ -278,9 +285,8 @@ static term_exit measure(comparison *c, problem *p) {
     for (int i = 0; forces[i]; i++)
       if (has_force(&c->side[REFERENCE], i) && has_force(&c->side[CANDIDATE], i))
         compare_force(c, &r, i);
-    study_shift steer;
-    compare_shape(c, &r, "steer", "steer_rate", &steer);
-    compare_shape(c, &r, "lean", "lean_rate", &c->study.shift);
+    compare_shape(c, &r, "lean", "lean_rate", &c->study.shift[0]);
+    compare_shape(c, &r, "steer", "steer_rate", &c->study.shift[1]);
   } else {
     code = problem_memory(p);
   }
@@ -323,7 +329,7 @@ const layer layer_traces = {
     .name = "L2",
     .title = "traces",
     .agreed = "the rides agree",
-    .failure = "the rides differ: the integration or the start does",
+    .failure = "the rides differ",
     .knows = knows,
     .needs = needs,
     .measure = measure,

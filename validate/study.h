@@ -28,7 +28,7 @@ typedef struct study_linear {
 
 //---------------------------------- L2 ------------------------------------------------------------
 
-// The shift in time that explains most of how lean differs.
+// The shift in time that explains most of how one of the study's signals differs.
 typedef struct study_shift {
   double time;  // s  the candidate is late by this
   double share; //    of the mean square difference that it explains, 0..1
@@ -105,7 +105,7 @@ typedef struct study_cost {
 
 typedef struct study_results {
   study_linear linear;
-  study_shift shift;
+  study_shift shift[STUDY_SIGNALS];
   study_convergence convergence;
   study_horizon horizon;
   study_cost cost;

@@ -14,8 +14,9 @@ typedef struct trace_row {
   double height[2];      // m    of the wheel's lowest point above the ground
 } trace_row;
 
-// Every column of `bicycle ride` after time, and what only the comparator looks at.
-enum { TRACE_SIGNAL_COUNT = 27 };
+// Every column of `bicycle ride` after time, and what only the comparator looks at. The first of
+// them are the motion: position, angles, rates and speed.
+enum { TRACE_SIGNAL_COUNT = 27, TRACE_MOTION_COUNT = 11 };
 
 // Where a recording first holds no finite number for a signal.
 typedef struct trace_flaw {
