@@ -154,7 +154,7 @@ static void contact_velocity(double out[6], double J[6 * 9], const runner *r, mj
 static void find_drift(double out[9], const runner *r) {
   const mjModel *m = r->model;
   mjData *d = mj_makeData(m);
-  double J[6 * 9], MJ[6 * 9], A[36], back[6], forth[6], rate[6];
+  double J[6 * 9], MJ[6 * 9], A[36], back[6], forth[6], rate[6], multiplier[6];
   static const double h = 1e-5; // s
   mju_copy(d->qvel, r->probe->qvel, 9);
   for (int k = 0; k < 9; k++) d->qpos[k] = r->probe->qpos[k] - h * d->qvel[k];
@@ -167,8 +167,8 @@ static void find_drift(double out[9], const runner *r) {
   mj_solveM(m, r->probe, MJ, J, 6);
   mju_mulMatMatT(A, J, MJ, 6, 9, 6);
   assert_int_equal(mju_cholFactor(A, 6, mjMINVAL), 6);
-  mju_cholSolve(A, A, rate, 6);
-  mju_mulMatTVec(out, MJ, A, 6, 9);
+  mju_cholSolve(multiplier, A, rate, 6);
+  mju_mulMatTVec(out, MJ, multiplier, 6, 9);
   mj_deleteData(d);
 }
 
