@@ -50,7 +50,7 @@ static term_exit load(json_t **out, const char *path, problem *p) {
 
 static bool is_verdict(const json_t *object) {
   const char *v = report_text(object, "verdict");
-  return strcmp(v, "agree") == 0 || strcmp(v, "fail") == 0 || strcmp(v, "invalid") == 0;
+  return report_passed(object) || strcmp(v, "fail") == 0 || strcmp(v, "invalid") == 0;
 }
 
 // The first key of a gate whose value is of the wrong kind; NULL: none.
@@ -113,8 +113,8 @@ static term_exit check(const json_t *document, problem *p) {
   const json_t *scenarios = json_object_get(document, "scenarios");
   if (strcmp(report_text(document, "schema"), REPORT_SCHEMA) != 0)
     return problem_set(p, TERM_BASELINE, "schema: is not \"%s\"", REPORT_SCHEMA);
-  if (version != REPORT_VERSION)
-    return problem_set(p, TERM_BASELINE, "version: %lld, but this program writes %d", version,
+  if (version < 1 || version > REPORT_VERSION)
+    return problem_set(p, TERM_BASELINE, "version: %lld, but this program reads 1 to %d", version,
                        REPORT_VERSION);
   if (!is_verdict(document)) return problem_set(p, TERM_BASELINE, "'verdict' is missing or wrong");
   if (!json_is_array(scenarios))

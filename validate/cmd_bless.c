@@ -66,7 +66,7 @@ static term_exit bless(const char *path, const char *output) {
     code = term_fail(TERM_INVALID, "%s: the run is invalid", path);
   else
     code = write_baseline(document, output);
-  if (code == TERM_DONE && !report_agrees(document))
+  if (code == TERM_DONE && !report_passed(document))
     term_message("%s: the simulators do not agree; blessed all the same", path);
   json_decref(document);
   return code;

@@ -13,12 +13,12 @@
 #include <string.h>
 
 const char *verdict_string(verdict v) {
-  static const char *const texts[] = {"agree", "fail", "invalid"};
+  static const char *const texts[] = {"agree", "differs as expected", "fail", "invalid"};
   return texts[v];
 }
 
 term_exit verdict_exit(verdict v) {
-  static const term_exit codes[] = {TERM_DONE, TERM_FAILED, TERM_INVALID};
+  static const term_exit codes[] = {TERM_DONE, TERM_DONE, TERM_FAILED, TERM_INVALID};
   return codes[v];
 }
 
@@ -202,6 +202,13 @@ static void find_first_failure(comparison *c) {
   }
 }
 
+// Without a gate that fails. A study that ended early has measured no difference of models.
+static verdict passing_verdict(const comparison *c) {
+  const study_convergence *study = &c->study.convergence;
+  bool differ = study->count > 0 && study->complete && study->verdict == STUDY_DIFFERENT;
+  return differ ? VERDICT_DIFFER : VERDICT_AGREE;
+}
+
 // A run that means nothing; but where an earlier layer has found a fault, that is its cause.
 static void invalidate(comparison *c, const layer *l, const problem *p) {
   find_first_failure(c);
@@ -224,6 +231,7 @@ term_exit comparison_run(comparison *c, problem *p) {
   bool whole = code == TERM_DONE;
   if (!gates_judge(&c->gates, &c->measurements, &c->scenario->rules, whole ? layers : layers - 1))
     return problem_memory(p);
+  c->verdict = passing_verdict(c);
   if (whole)
     find_first_failure(c);
   else

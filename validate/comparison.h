@@ -19,9 +19,11 @@ typedef struct comparison_side {
 
 enum { REFERENCE, CANDIDATE };
 
-typedef enum verdict { VERDICT_AGREE, VERDICT_FAIL, VERDICT_INVALID } verdict;
+// All limits hold: VERDICT_AGREE, or VERDICT_DIFFER where the convergence study has measured that
+// the models differ and the scenario allows it (`expect: different-model`).
+typedef enum verdict { VERDICT_AGREE, VERDICT_DIFFER, VERDICT_FAIL, VERDICT_INVALID } verdict;
 
-// "agree", "fail", "invalid".
+// "agree", "differs as expected", "fail", "invalid".
 const char *verdict_string(verdict v);
 term_exit verdict_exit(verdict v);
 

@@ -28,6 +28,7 @@ target_sources(validate_core PRIVATE
   baseline_floor.c
   baseline_print.c
   baseline_read.c
+  report_counts.c
   report_csv.c
   report_curves.c
   report_curves_study.c

@@ -10,7 +10,7 @@
 #include <stdio.h>
 
 #define REPORT_SCHEMA "bicycle-validate-report"
-enum { REPORT_VERSION = 1 }; // of the schema
+enum { REPORT_VERSION = 2 }; // of the schema; earlier ones can be read
 
 typedef struct report {
   const comparison *comparisons;
@@ -18,10 +18,10 @@ typedef struct report {
   provenance provenance;
 } report;
 
-// The worst verdict of all scenarios.
+// The worst verdict of all scenarios: VERDICT_DIFFER only where none agrees.
 verdict report_verdict(const report *r);
 
-// The first comparison with that verdict; NULL if all agree.
+// The first comparison with that verdict; NULL if no limit fails.
 const comparison *report_first_failure(const report *r);
 
 // The document report.json; NULL when out of memory.

@@ -10,12 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *verdict_words(const json_t *object) {
-  const char *v = report_text(object, "verdict");
-  if (strcmp(v, "agree") == 0) return "Agree";
-  return strcmp(v, "fail") == 0 ? "Fail" : "Invalid";
-}
-
 // The gate that uses up most of its limit in all scenarios, and where; layer NULL if there is none.
 static report_gate closest_gate(const json_t *document, const json_t **where) {
   report_gate closest = {0};
@@ -82,14 +76,13 @@ static void print_baseline(FILE *stream, const json_t *document) {
 }
 
 void report_html_verdict(FILE *stream, const json_t *document) {
-  char counts[160];
-  report_describe_counts(counts, sizeof counts, document);
+  char counts[REPORT_COUNTS_TEXT];
   const json_t *origin = json_object_get(document, "provenance");
   const char *but = report_baseline_words(document);
   report_markup(stream, "<header class='%s'>\n<h1>%s<span>: %s%s</span></h1>\n",
-                *but && report_agrees(document) ? "worse" : report_text(document, "verdict"),
-                verdict_words(document), counts, but);
-  if (report_agrees(document))
+                *but && report_passed(document) ? "worse" : report_text(document, "verdict"),
+                report_verdict_title(document), report_describe_counts(counts, document), but);
+  if (report_passed(document))
     print_closest(stream, document);
   else
     print_failure(stream, document);
@@ -132,8 +125,8 @@ static bool is_gated(const json_t *document, const char *name) {
 static void print_row(FILE *stream, const json_t *document, const json_t *entry) {
   const json_t *a = report_engine(entry, "reference"), *b = report_engine(entry, "candidate");
   report_markup(stream, "<tr><td class='%s'>%s<td><a href='#%u'>%s</a>",
-                report_text(entry, "verdict"), verdict_words(entry), report_text(entry, "name"),
-                report_text(entry, "name"));
+                report_text(entry, "verdict"), report_verdict_title(entry),
+                report_text(entry, "name"), report_text(entry, "name"));
   for (int i = 0; layer_at(i); i++)
     if (is_gated(document, layer_at(i)->name)) print_layer_cell(stream, entry, layer_at(i)->name);
   report_markup(stream, "<td class=ride>%s<td>%s<td>%s - %s</tr>\n", report_text(entry, "title"),

@@ -16,7 +16,7 @@ static void print_title(FILE *stream, const json_t *s) {
   report_markup(stream, "<h2><span class='badge %s'>%s</span> %s</h2>\n<p>%s.</p>\n",
                 report_text(s, "verdict"), report_text(s, "verdict"), report_text(s, "name"),
                 report_text(s, "title"));
-  if (!report_agrees(s))
+  if (!report_passed(s))
     report_markup(stream, "<p class=cause>%s %s: %s</p>\n", l ? l->name : "", l ? l->title : "",
                   report_text(s, "cause"));
 }

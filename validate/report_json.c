@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include "layer.h"
+#include "report_counts.h"
 #include "report_json_layers.h"
 #include "terminal/command.h"
 #include "terminal/json.h"
@@ -13,14 +14,18 @@
 
 verdict report_verdict(const report *r) {
   verdict worst = VERDICT_AGREE;
-  for (size_t i = 0; i < r->count; i++)
-    if (r->comparisons[i].verdict > worst) worst = r->comparisons[i].verdict;
-  return worst;
+  bool differ = r->count > 0;
+  for (size_t i = 0; i < r->count; i++) {
+    differ = differ && r->comparisons[i].verdict == VERDICT_DIFFER;
+    if (r->comparisons[i].verdict > VERDICT_DIFFER && r->comparisons[i].verdict > worst)
+      worst = r->comparisons[i].verdict;
+  }
+  return differ ? VERDICT_DIFFER : worst;
 }
 
 const comparison *report_first_failure(const report *r) {
   verdict worst = report_verdict(r);
-  for (size_t i = 0; worst != VERDICT_AGREE && i < r->count; i++)
+  for (size_t i = 0; worst > VERDICT_DIFFER && i < r->count; i++)
     if (r->comparisons[i].verdict == worst) return &r->comparisons[i];
   return NULL;
 }
@@ -189,9 +194,10 @@ json_t *report_document(const report *r) {
   json_t *scenarios = json_array();
   for (size_t i = 0; i < r->count; i++)
     json_array_append_new(scenarios, scenario_json(&r->comparisons[i]));
-  return json_pack("{s:s, s:i, s:s, s:o, s:o, s:o, s:o, s:o}", "schema", REPORT_SCHEMA, "version",
-                   REPORT_VERSION, "verdict", verdict_string(report_verdict(r)), "first_failure",
-                   first_failure_json(failure), "cause",
-                   text_or_null(failure ? failure->cause : NULL), "scenarios", scenarios,
-                   "provenance", provenance_json(r), "files", files_json(r));
+  return json_pack("{s:s, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "schema", REPORT_SCHEMA,
+                   "version", REPORT_VERSION, "verdict", verdict_string(report_verdict(r)),
+                   "first_failure", first_failure_json(failure), "cause",
+                   text_or_null(failure ? failure->cause : NULL), "counts",
+                   report_counts(scenarios), "scenarios", scenarios, "provenance",
+                   provenance_json(r), "files", files_json(r));
 }

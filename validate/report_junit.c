@@ -41,6 +41,11 @@ typedef struct tally {
   size_t tests, failures, errors;
 } tally;
 
+// What has no gate of its own: one test that passes says it.
+static bool is_different(const json_t *entry) {
+  return report_passed(entry) && strcmp(report_text(entry, "verdict"), "agree") != 0;
+}
+
 static size_t gone_count(const json_t *entry) {
   return report_count(json_object_get(entry, "baseline"), "gone");
 }
@@ -53,7 +58,7 @@ static tally tally_of(const json_t *entry) {
     t.failures += !g.pass || is_worse(&g);
   }
   t.errors = is_invalid(entry);
-  t.tests += t.errors;
+  t.tests += t.errors + is_different(entry);
   return t;
 }
 
@@ -128,6 +133,9 @@ static void print_suite(FILE *stream, const json_t *document, const json_t *entr
   report_markup(stream, " timestamp=\"%s\">\n",
                 report_text(json_object_get(document, "provenance"), "created"));
   if (is_invalid(entry)) print_fault(stream, name, "the run is valid", "error", cause);
+  if (is_different(entry))
+    report_markup(stream, "    <testcase classname=\"%s\" name=\"%s\"/>\n", name,
+                  report_text(entry, "verdict"));
   for (size_t i = 0; i < report_count(entry, "gates"); i++) {
     report_gate g = report_gate_at(entry, i);
     print_gate(stream, name, cause, &g);

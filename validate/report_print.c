@@ -7,6 +7,7 @@
 #include "report_read.h"
 #include "terminal/table.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@
 enum { SHOWN_GATES = 5 };
 
 static void print_coloured(FILE *stream, const json_t *object, const char *word) {
-  term_style style = report_agrees(object) ? TERM_GOOD : TERM_BAD;
+  term_style style = report_passed(object) ? TERM_GOOD : TERM_BAD;
   fprintf(stream, "%s%s%s", term_style_begin(stream, style), word, term_style_end(stream, style));
 }
 
@@ -25,15 +26,12 @@ static void print_cause(const json_t *object, FILE *stream) {
 }
 
 static void print_verdict(const json_t *document, FILE *stream) {
-  const char *v = report_text(document, "verdict");
-  char counts[160];
+  char counts[REPORT_COUNTS_TEXT], title[32];
   const json_t *failing = report_first_failing(document);
-  report_describe_counts(counts, sizeof counts, document);
-  print_coloured(stream, document,
-                 strcmp(v, "agree") == 0  ? "AGREE"
-                 : strcmp(v, "fail") == 0 ? "FAIL"
-                                          : "INVALID");
-  fprintf(stream, ": %s\n", counts);
+  snprintf(title, sizeof title, "%s", report_verdict_title(document));
+  for (char *at = title; *at; at++) *at = (char)toupper((unsigned char)*at);
+  print_coloured(stream, document, title);
+  fprintf(stream, ": %s\n", report_describe_counts(counts, document));
   if (!failing) return;
   fprintf(stream, "First failure: %s, ", report_text(failing, "name"));
   print_cause(failing, stream);
@@ -71,7 +69,7 @@ static void print_scenario(const json_t *entry, bool explained, bool all, FILE *
   print_coloured(stream, entry, report_text(entry, "verdict"));
   fprintf(stream, "  %s: %s (%zu gate%s)\n", report_text(entry, "name"),
           report_text(entry, "title"), gates, gates == 1 ? "" : "s");
-  if (!report_agrees(entry) && !explained) print_cause(entry, stream);
+  if (!report_passed(entry) && !explained) print_cause(entry, stream);
   print_gates(entry, all, stream);
 }
 

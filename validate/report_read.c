@@ -93,8 +93,25 @@ size_t report_changed_gates(const json_t *entry, const char *change) {
   return changed;
 }
 
-bool report_agrees(const json_t *object) {
-  return strcmp(report_text(object, "verdict"), "agree") == 0;
+static const char *const verdicts[][2] = {{"agree", "Agree"},
+                                          {"differs as expected", "Differs as expected"},
+                                          {"fail", "Fail"},
+                                          {"invalid", "Invalid"}};
+
+// Index in the table; beyond the verdicts that passed for anything unknown.
+static int verdict_index(const json_t *object) {
+  const char *v = report_text(object, "verdict");
+  int i = 0;
+  while (i < 3 && strcmp(v, verdicts[i][0]) != 0) i++;
+  return i;
+}
+
+bool report_passed(const json_t *object) {
+  return verdict_index(object) < 2;
+}
+
+const char *report_verdict_title(const json_t *object) {
+  return verdicts[verdict_index(object)][1];
 }
 
 const json_t *report_first_failing(const json_t *document) {
@@ -102,14 +119,14 @@ const json_t *report_first_failing(const json_t *document) {
   const json_t *entry;
   const char *worst = report_text(document, "verdict");
   json_array_foreach(json_object_get(document, "scenarios"), i, entry) {
-    if (!report_agrees(document) && strcmp(report_text(entry, "verdict"), worst) == 0) return entry;
+    if (!report_passed(document) && strcmp(report_text(entry, "verdict"), worst) == 0) return entry;
   }
   return NULL;
 }
 
 const char *report_baseline_words(const json_t *document) {
   if (json_object_get(document, "baseline_problem")) return ", but not compared with the baseline";
-  return report_agrees(document) && baseline_is_worse(document) ? ", but worse than the baseline"
+  return report_passed(document) && baseline_is_worse(document) ? ", but worse than the baseline"
                                                                 : "";
 }
 
@@ -122,19 +139,26 @@ const json_t *report_engine(const json_t *entry, const char *role) {
   return NULL;
 }
 
-void report_describe_counts(char *out, size_t size, const json_t *document) {
-  size_t i, gates = 0, failed = 0;
-  const json_t *entry, *scenarios = json_object_get(document, "scenarios");
-  json_array_foreach(scenarios, i, entry) {
-    gates += report_count(entry, "gates");
-    failed += report_failed_gates(entry);
+const char *report_describe_counts(char out[REPORT_COUNTS_TEXT], const json_t *document) {
+  static const struct {
+    const char *key, *one, *many;
+  } kinds[] = {{"invalid", "could not be played", "could not be played"},
+               {"fail", "fails", "fail"},
+               {"agree", "agrees", "agree"},
+               {"differ", "differs as expected", "differ as expected"}};
+  const json_t *counts = json_object_get(document, "counts");
+  double all = report_real(counts, "measurements"), failed = report_real(counts, "failed");
+  size_t used = 0;
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    double count = report_real(counts, kinds[i].key);
+    if (!(count > 0)) continue;
+    const char *noun = used ? "" : count == 1 ? "scenario " : "scenarios ";
+    used += (size_t)snprintf(out + used, REPORT_COUNTS_TEXT - used, "%s%.0f %s%s", used ? ", " : "",
+                             count, noun, count == 1 ? kinds[i].one : kinds[i].many);
   }
-  int used = snprintf(out, size, "%zu scenario%s, ", i, i == 1 ? "" : "s");
-  if (used < 0 || (size_t)used >= size) return;
-  if (strcmp(report_text(document, "verdict"), "invalid") == 0)
-    snprintf(out + used, size - (size_t)used, "not all of which could be played");
-  else if (failed)
-    snprintf(out + used, size - (size_t)used, "%zu of %zu gates fail", failed, gates);
-  else
-    snprintf(out + used, size - (size_t)used, "all %zu gates hold", gates);
+  char of[32] = "";
+  if (failed > 0) snprintf(of, sizeof of, "%.0f of ", failed);
+  snprintf(out + used, REPORT_COUNTS_TEXT - used, "; %s%.0f independent measurement%s %s limits",
+           of, all, all == 1 ? "" : "s", failed > 0 ? "beyond their" : "within their");
+  return out;
 }

@@ -46,10 +46,13 @@ size_t report_failed_gates(const json_t *entry);
 // How many gates of a scenario changed in that way against the baseline.
 size_t report_changed_gates(const json_t *entry, const char *change);
 
-// "agree" or anything else.
-bool report_agrees(const json_t *object);
+// Whether the verdict of a document or scenario is "agree" or "differs as expected".
+bool report_passed(const json_t *object);
 
-// The first scenario that has the document's verdict; NULL where all agree.
+// The verdict as a title: "Differs as expected".
+const char *report_verdict_title(const json_t *object);
+
+// The first scenario that has the document's verdict; NULL where no limit fails.
 const json_t *report_first_failing(const json_t *document);
 
 // ", but worse than the baseline", ", but not compared with the baseline", or "": what the verdict
@@ -59,7 +62,10 @@ const char *report_baseline_words(const json_t *document);
 // The engine of a scenario that plays a role: "reference", "candidate"; NULL if there is none.
 const json_t *report_engine(const json_t *entry, const char *role);
 
-// "all 85 gates hold", "2 of 85 gates fail", over all scenarios of a document.
-void report_describe_counts(char *out, size_t size, const json_t *document);
+enum { REPORT_COUNTS_TEXT = 200 };
+
+// "23 scenarios agree, 2 differ as expected; 556 independent measurements within their limits": the
+// `counts` of a document (report_counts.h).
+const char *report_describe_counts(char out[REPORT_COUNTS_TEXT], const json_t *document);
 
 #endif

@@ -49,15 +49,11 @@ static void print_baseline(FILE *stream, const json_t *document) {
 }
 
 static void print_verdict(FILE *stream, const json_t *document) {
-  char counts[160];
-  const char *v = report_text(document, "verdict");
-  report_describe_counts(counts, sizeof counts, document);
-  const char *words = strcmp(v, "agree") == 0  ? "Agree"
-                      : strcmp(v, "fail") == 0 ? "Fail"
-                                               : "Invalid";
-  fprintf(stream, "## %s: %s%s\n\n", words, counts, report_baseline_words(document));
+  char counts[REPORT_COUNTS_TEXT];
+  fprintf(stream, "## %s: %s%s\n\n", report_verdict_title(document),
+          report_describe_counts(counts, document), report_baseline_words(document));
   print_baseline(stream, document);
-  if (report_agrees(document)) return;
+  if (report_passed(document)) return;
   fputs("First failure: ", stream);
   print_text(stream, report_text(document, "first_failure"));
   fputs(", ", stream);

@@ -243,11 +243,20 @@ static void test_worse_fails(void **state) {
   support_expect_text("out", "BETTER than");
   assert_int_equal(support_validate("test.yml --baseline better.json"), 1);
   support_expect_text("out", "1 worse");
-  json_object_set_new(document, "version", json_integer(2));
+  // Version 1 had no counts, and knew no scenario that differs as expected.
+  json_t *older = json_deep_copy(document);
+  json_object_set_new(older, "version", json_integer(1));
+  json_object_del(older, "counts");
+  save(older, "older.json");
+  json_decref(older);
+  assert_int_equal(support_validate("compare older.json bicycle-report"), 1);
+  assert_int_equal(support_validate("compare bicycle-report older.json"), 0);
+  support_expect_text("out", "BETTER than");
+  json_object_set_new(document, "version", json_integer(REPORT_VERSION + 1));
   save(document, "newer.json");
   assert_int_equal(support_validate("test.yml --baseline newer.json"), 4);
   json_object_set_new(document, "verdict", json_string("invalid"));
-  json_object_set_new(document, "version", json_integer(1));
+  json_object_set_new(document, "version", json_integer(REPORT_VERSION));
   save(document, "invalid.json");
   assert_int_equal(support_validate("bless invalid.json -o no.json"), 3);
   json_decref(document);

@@ -108,7 +108,7 @@ static void test_structure(void **state) {
   assert_int_equal(write_report(f, f->target, &p), TERM_DONE);
   json_t *document = load_report(f);
   assert_string_equal(text_of(document, "schema"), REPORT_SCHEMA);
-  assert_int_equal(json_integer_value(json_object_get(document, "version")), 1);
+  assert_int_equal(json_integer_value(json_object_get(document, "version")), REPORT_VERSION);
   assert_string_equal(text_of(document, "verdict"), "agree");
   assert_true(json_is_null(json_object_get(document, "first_failure")));
   const json_t *scenarios = json_object_get(document, "scenarios");
@@ -241,7 +241,7 @@ static void test_views_escape(void **state) {
   free(cause);
   free(message);
   junit_check(junit);
-  expect_part(summary, "## Fail: 1 scenario, 2 of ");
+  expect_part(summary, "## Fail: 1 scenario fails; 2 of ");
   expect_part(summary, "\\</script\\>\\<b\\>\\&\"\\|x");
   expect_part(summary, "- `L2 lean max`: ");
   free(html);

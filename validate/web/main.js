@@ -48,7 +48,7 @@ async function start() {
   const report = JSON.parse(new TextDecoder().decode(await inflate(document.getElementById('/report-json').textContent)));
   const select = makePicker(sections);
   document.documentElement.classList.add('scripted');
-  const worst = report.scenarios.find((s) => s.verdict !== 'agree') || report.scenarios[0];
+  const worst = report.scenarios.find((s) => s.verdict === 'fail' || s.verdict === 'invalid') || report.scenarios[0];
   const show = async () => {
     const wanted = addressed(sections);
     const current = wanted || sections.find((s) => s.classList.contains('shown')) || sections.find((s) => s.id === worst.name);
