@@ -23,7 +23,8 @@ static const char documentation[] =
     "prints the verdict and writes a report. SCENARIO is a file or the name of a shipped one; all "
     "shipped ones without. `list` shows these, `compare` compares two saved reports, `bless` makes "
     "a report the baseline of later runs.\v"
-    "Exit status: 0 the simulators agree; 1 they do not, or a metric is worse than the baseline's; "
+    "Exit status: 0 the simulators agree or differ as expected; 1 they do not, or a metric is "
+    "worse than the baseline's; "
     "2 wrong usage or input; 3 a run is invalid; 4 the baseline is missing or is of other rides.";
 
 typedef struct arguments {

@@ -118,11 +118,14 @@ static void steering_inertia(figures *out) {
   }
 }
 
+static double damped(const bike_bicycle *b, double damping) {
+  bike_bicycle v = varied(b, BIKE_VARY_STEER_DAMPING, damping, BIKE_FRONT_IN_SPACE);
+  return limits_of(&v, FAST).weave;
+}
+
 static void damping_of(figures *out, const char *shipped) {
   bike_bicycle b = bicycle_of(shipped);
-  double before = limits_of(&b, FAST).weave;
-  bike_bicycle v = varied(&b, BIKE_VARY_STEER_DAMPING, 1, BIKE_FRONT_IN_SPACE);
-  double after = limits_of(&v, FAST).weave;
+  double before = limits_of(&b, FAST).weave, after = damped(&b, 1);
   put(out, before);
   put(out, after);
   put(out, 100 * (after / before - 1));
@@ -134,7 +137,11 @@ static void damping(figures *out) {
 }
 
 static void damping_recumbent(figures *out) {
+  bike_bicycle b = bicycle_of("recumbent");
+  double before = limits_of(&b, FAST).weave;
   damping_of(out, "recumbent");
+  put(out, 100 * (damped(&b, 0.5) / before - 1));
+  put(out, 100 * (damped(&b, 2) / before - 1));
 }
 
 const claim claims_effects[] = {{"wheel-inertia", wheel_inertia},

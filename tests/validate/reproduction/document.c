@@ -15,15 +15,27 @@ bool document_key(char key[KEY_SIZE], const char *line) {
   return true;
 }
 
-int document_verdict(const char *line) {
+static const char construction[] = ", by construction";
+
+// A verdict in its cell, with what follows it.
+static int find_verdict(const char *line, const char *after) {
   const char *cell = line;
   for (int bar = 0; bar < 5 && cell; bar++) cell = strchr(cell + (bar > 0), '|');
   for (int v = 0; cell && v < VERDICTS; v++) {
     char text[KEY_SIZE];
-    snprintf(text, sizeof text, "| %s |", verdicts[v]);
+    snprintf(text, sizeof text, "| %s%s |", verdicts[v], after);
     if (strncmp(cell, text, strlen(text)) == 0) return v;
   }
   return -1;
+}
+
+bool document_is_constructed(const char *line) {
+  return find_verdict(line, construction) >= 0;
+}
+
+int document_verdict(const char *line) {
+  int plain = find_verdict(line, "");
+  return plain >= 0 ? plain : find_verdict(line, construction);
 }
 
 // A bold figure: text between the stars.

@@ -17,8 +17,12 @@ extern const char *const verdicts[VERDICTS]; // confirmed, partly, not
 // The key of a row of the table into `key`; false for any other line.
 bool document_key(char key[KEY_SIZE], const char *line);
 
-// Index of the row's verdict; -1 where it is none of the three.
+// Index of the row's verdict, which ", by construction" may follow; -1 where it is none of the
+// three.
 int document_verdict(const char *line);
+
+// Whether a choice of ours decides the row's verdict: ", by construction" follows it.
+bool document_is_constructed(const char *line);
 
 // Holds the figures of a line against computed ones and prints what differs; the number of faults.
 int document_check(const char *key, const char *line, const figures *computed);

@@ -35,6 +35,7 @@ static int claim_count(void) {
 typedef struct tally {
   int rows, faults;
   int verdict[VERDICTS]; // of the whole file
+  int constructed;       // of these, by construction
 } tally;
 
 // Every row has a claim and a verdict, and stands once.
@@ -61,6 +62,7 @@ static figures figures_of_row(tally *t, const char *key, const char *line) {
   if (strcmp(key, count_key) == 0) {
     computed.values[computed.count++] = claim_count();
     for (int v = 0; v < VERDICTS; v++) computed.values[computed.count++] = t->verdict[v];
+    computed.values[computed.count++] = t->constructed;
     return computed;
   }
   const claim *c = claim_of_row(t, key, line);
@@ -75,6 +77,7 @@ static void count_verdicts(tally *t, FILE *in) {
   while (fgets(line, sizeof line, in)) {
     int verdict = document_key(key, line) ? document_verdict(line) : -1;
     if (verdict >= 0) t->verdict[verdict]++;
+    if (verdict >= 0) t->constructed += document_is_constructed(line);
   }
   rewind(in);
 }
