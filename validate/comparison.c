@@ -182,12 +182,18 @@ size_t comparison_judged_rows(const comparison *c) {
   return rows;
 }
 
+// Whether a gate that fails says more than another: a value that was measured more than none.
+static bool is_worse(const gate *g, const gate *than) {
+  if (isnan(g->what.value) != isnan(than->what.value)) return isnan(than->what.value);
+  return gate_use(g) > gate_use(than);
+}
+
 static const gate *worst_of(const gate_list *gates, const layer *l) {
   const gate *worst = NULL;
   for (size_t i = 0; i < gates->count; i++) {
     const gate *g = &gates->items[i];
     if (strcmp(g->what.layer, l->name) != 0 || g->pass) continue;
-    if (!worst || gate_use(g) > gate_use(worst)) worst = g;
+    if (!worst || is_worse(g, worst)) worst = g;
   }
   return worst;
 }

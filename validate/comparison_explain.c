@@ -136,10 +136,11 @@ void comparison_say_order(comparison *c) {
   for (int i = 0; i < STUDY_SIGNALS; i++) {
     const study_signal *s = &study->signal[i];
     if (s->verdict != study->verdict) continue;
+    // The power is a whole order where one was measured, else the expected one.
     if (s->verdict == STUDY_UNDECIDED)
-      comparison_say(
-          c, "; with smaller steps they get closer with order %.2g, not %.2g: another integrator",
-          s->order, study->order);
+      comparison_say(c, "; with smaller steps they get closer with order %.2g, not %.2g%s",
+                     s->order, study->order,
+                     s->power != study->order ? ": another integrator" : "");
     else
       comparison_say(c, "; no smaller step brings them closer than %.3g rad: another model",
                      s->plateau);
@@ -160,6 +161,27 @@ static void explain_nothing_measured(comparison *c, const gate *worst) {
     if (!c->side[i].trace.complete)
       comparison_say(c, "; the ride of %s ends at %g s", c->side[i].label,
                      c->side[i].trace.end_time);
+}
+
+static bool is_unmeasured(const comparison *c, size_t index) {
+  const gate *g = &c->gates.items[index];
+  return !g->pass && isnan(g->what.value) && strcmp(g->what.layer, c->first_failure->name) == 0;
+}
+
+// "; nothing of yaw, x was measured": signals of the layer that have a limit and no value, beside
+// one that has both; each once, whatever number of metrics is asked.
+static void say_unmeasured(comparison *c) {
+  const gate *items = c->gates.items;
+  int count = 0;
+  for (size_t i = 0; i < c->gates.count; i++) {
+    bool said = !is_unmeasured(c, i);
+    for (size_t k = 0; k < i && !said; k++)
+      said = is_unmeasured(c, k) && strcmp(items[k].what.signal, items[i].what.signal) == 0;
+    if (said) continue;
+    comparison_say(c, "%s%s", count++ ? ", " : "; nothing of ",
+                   comparison_words(items[i].what.signal).text);
+  }
+  if (count) comparison_say(c, " was measured");
 }
 
 static void explain_any(comparison *c, const gate *worst) {
@@ -187,4 +209,5 @@ void comparison_explain(comparison *c, const gate *worst) {
     if (known[i].layer == c->first_failure) explain = known[i].explain;
   if (isnan(worst->what.value)) explain = explain_nothing_measured;
   explain(c, worst);
+  if (!isnan(worst->what.value)) say_unmeasured(c);
 }

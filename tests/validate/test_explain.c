@@ -3,6 +3,7 @@
 #include "support/near.h"
 #include "validate_support.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,6 +20,14 @@ static change *applied;
 static term_exit ride_changed(trace *out, void *instance, const engine_ride *asked, problem *p) {
   term_exit code = engine_mujoco.ride(out, instance, asked, p);
   for (size_t k = 0; k < out->count; k++) applied(&out->rows[k].sample);
+  return code;
+}
+
+static term_exit ride_without_pitch(trace *out, void *instance, const engine_ride *asked,
+                                    problem *p) {
+  term_exit code = ride_changed(out, instance, asked, p);
+  for (int i = 0; i < TRACE_SIGNAL_COUNT; i++)
+    if (strcmp(trace_signals[i].name, "pitch") == 0) out->missing |= (uint64_t)1 << i;
   return code;
 }
 
@@ -143,11 +152,62 @@ static void test_unmeasured_is_no_fault(void **state) {
   free(text);
 }
 
+static double step; // of the candidate's ride
+
+static void *create_noting_step(const bike_bicycle *bicycle, const engine_choice *choice,
+                                term_exit *code, problem *p) {
+  step = choice->option[engine_option_index(&engine_mujoco, "timestep")];
+  return engine_mujoco.create(bicycle, choice, code, p);
+}
+
+static void err_with_step(bike_sample *s) {
+  s->lean += 10 * pow(step, 2.5) * s->time;
+  s->steer += 10 * pow(step, 2.5) * s->time;
+}
+
+// An order that is no integrator's accuses none.
+static void test_odd_order_is_no_integrator(void **state) {
+  (void)state;
+  char *text = support_replace(
+      ride_text, "gates:\n",
+      "convergence: {timesteps: [1e-2, 5e-3, 2.5e-3, 1.25e-3], tolerance: 1e-3}\ngates:\n");
+  engine wrong = engine_mujoco;
+  wrong.create = create_noting_step;
+  wrong.ride = ride_changed;
+  applied = err_with_step;
+  support_run *f = support_open(&wrong, text);
+  comparison *c = support_play(f);
+  support_expect_failure(c, "L2", "they get closer with order 2.5, not 4");
+  assert_null(strstr(c->cause, "another integrator"));
+  support_close(f);
+  free(text);
+}
+
+// What one gate cannot measure does not hide what another has measured.
+static void test_unmeasured_hides_no_fault(void **state) {
+  (void)state;
+  static const char more[] =
+      "gates:\n  - {layer: L2, metric: rmse, signals: [pitch, lean], limit: 1, reason: test}\n"
+      "  - {layer: L2, metric: max, signals: [pitch], limit: 1, reason: test}\n";
+  char *text = support_replace(ride_text, "gates:\n", more);
+  engine wrong = engine_mujoco;
+  wrong.ride = ride_without_pitch;
+  applied = flip_steer;
+  support_run *f = support_open(&wrong, text);
+  comparison *c = support_play(f);
+  support_expect_failure(c, "L2", "steer, steer rate of mujoco have the other sign");
+  support_expect_failure(c, "L2", "; nothing of pitch was measured");
+  support_close(f);
+  free(text);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_relations_are_named),
       cmocka_unit_test(test_only_what_was_not_asked_is_open),
       cmocka_unit_test(test_unmeasured_is_no_fault),
+      cmocka_unit_test(test_odd_order_is_no_integrator),
+      cmocka_unit_test(test_unmeasured_hides_no_fault),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
