@@ -77,7 +77,7 @@ static const struct argp_option options[] = {
 static bike_state lively_state(const bike_model *model) {
   bike_state state = {.lean_rate = 0.1, .speed = 5};
   bike_critical_speeds critical;
-  if (bike_upright_critical_speeds(&critical, model, 0, 20) == BIKE_OK &&
+  if (bike_upright_critical_speeds(&critical, model, 0, bike_search_end(model)) == BIKE_OK &&
       critical.range_count > 0) {
     // In the middle of the first stable range, or 1 m/s into a wide one.
     const double *range = critical.ranges[0];

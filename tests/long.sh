@@ -7,6 +7,7 @@ set -eu
 # built, prints its counts in its last line, and returns 0 if all is well.
 checks() {
   cat <<'END'
+mode_names|names of modes: 200 lists of speeds, 200 random bicycles|build/release/tests/test_modes 200 200
 threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|ctest --preset release -R '_threads|test_suite'
 END
 }

@@ -11,6 +11,7 @@
 #include "terminal/table.h"
 
 #include <bicycle/error.h>
+#include <bicycle/stability.h>
 #include <math.h>
 
 static const char example[] = "Example: bicycle cycle roadster\n"
@@ -27,7 +28,7 @@ static const char documentation[] =
 typedef struct arguments {
   const char *file, *output; // output NULL: none
   double speed;              // m/s; NaN: not given
-  double search[2];          // m/s
+  double search[2];          // m/s; NaN: by the bicycle's size
   term_range leans;          // rad
   term_show show;
 } arguments;
@@ -61,7 +62,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 }
 
 static const struct argp_option options[] = {
-    {"search", KEY_SEARCH, "LO:HI", 0, "Where to look for the weave speed, m/s (0:40)", 1},
+    {"search", KEY_SEARCH, "LO:HI", 0,
+     "Where to look for the weave speed, m/s (0:40, of very small or large bicycles by their size)",
+     1},
     {"leans", KEY_LEANS, "A:B:N", 0, "Amplitudes of the lean, rad or deg (1deg:10deg:10)", 1},
     {"speed", KEY_SPEED, "V", 0, "The cycles of one speed, m/s", 1},
     {"output", 'o', "X.svg", 0, "Picture, with the table X.csv beside it", 1},
@@ -242,13 +245,17 @@ int cmd_cycle(int argc, char **argv) {
   const struct argp_child children[] = {
       {&term_file_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
-  arguments args = {.speed = NAN, .search = {0, 40}, .leans = {M_PI / 180, M_PI / 18, 10}};
+  arguments args = {.speed = NAN, .search = {NAN, NAN}, .leans = {M_PI / 180, M_PI / 18, 10}};
   term_parse(&argp, example, argc, argv, &args);
 
   bike_bicycle bicycle;
   bike_model model;
   term_exit code = term_load_bicycle(&bicycle, &model, args.file);
   if (code != TERM_DONE) return code;
+  if (isnan(args.search[1])) {
+    args.search[0] = 0;
+    args.search[1] = bike_search_end(&model);
+  }
   cycle_answer a;
   int error = cycle_answer_find(&a, &model, args.search, &args.leans, args.speed);
   code = error ? term_fail_bike(error, args.file) : answer(&bicycle, &args, &a);

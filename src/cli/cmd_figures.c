@@ -147,11 +147,11 @@ static double round_up(double x) {
 
 // Axes that were not given are made to show the stable ranges and what surrounds it.
 static int choose_axes(arguments *args, const bike_model *model) {
-  const double fastest = 50; // m/s: beyond, no range is of interest
+  const double fastest = bike_search_end(model), usual = fastest / 40;
   bike_critical_speeds found;
   int code = bike_upright_critical_speeds(&found, model, 0, fastest);
   if (code) return code;
-  double low = 5, high = 7; // a usual bicycle
+  double low = 5 * usual, high = 7 * usual; // as of what people ride
   args->fit = found.range_count == 0 && !(args->fastest_inertia > 0 || args->fastest_trail > 0);
   if (found.range_count > 0) {
     const double *last = found.ranges[found.range_count - 1];

@@ -31,6 +31,7 @@ static const recipe recipes[EFFECTS_CHANGES] = {
 // What a bicycle's numbers are measured by.
 typedef struct scale {
   double length, speed, damping; // m, m/s, N m s/rad: all 1 for what people ride
+  double search_end;             // m/s
 } scale;
 
 static int scale_of(scale *out, const bike_bicycle *bicycle) {
@@ -42,7 +43,10 @@ static int scale_of(scale *out, const bike_bicycle *bicycle) {
   if (code) return code;
   double length = bike_length_unit(&model), speed = sqrt(length);
   double mass = pow(step, round(log(model.total_mass / usual_mass) / log(step)));
-  *out = (scale){.length = length, .speed = speed, .damping = mass * length * speed};
+  *out = (scale){.length = length,
+                 .speed = speed,
+                 .damping = mass * length * speed,
+                 .search_end = bike_search_end(&model)};
   return BIKE_OK;
 }
 
@@ -119,6 +123,6 @@ int effects_list_make(effects_list *out, const double search[2], double speed) {
   scale unit;
   int code = scale_of(&unit, &out->file.bicycle);
   if (code) return code;
-  const double usual[2] = {0, 40 * unit.speed};
+  const double usual[2] = {0, unit.search_end};
   return find_all(out, search ? search : usual, speed, &unit);
 }

@@ -28,9 +28,9 @@ typedef struct effects_list {
   effects_change changes[EFFECTS_CHANGES];
 } effects_list;
 
-// Of the bicycle in out->file. `search` NULL: 0 to 40 m/s. `speed` NaN: the middle of the first
-// stable range, 5 m/s where there is none. These numbers and the changes are those of bicycles that
-// people ride: for very small or large ones those of the similar bicycle.
+// Of the bicycle in out->file. `search` NULL: 0 to bike_search_end. `speed` NaN: the middle of the
+// first stable range, 5 m/s where there is none. These numbers and the changes are those of
+// bicycles that people ride: for very small or large ones those of the similar bicycle.
 int effects_list_make(effects_list *out, const double search[2], double speed);
 
 #endif

@@ -51,3 +51,9 @@ bool bike_all_decay(const bike_eigenvalues *e) {
     if (!(e->re[i] < -band)) return false;
   return true;
 }
+
+double bike_search_end(const bike_model *model) {
+  const double usual = 40, froude = 9.81 * 2; // m/s; m^2/s^2: g and a reach of 2 m
+  double power = round(0.5 * log2(model->gravity * model->reach / froude));
+  return isfinite(power) ? ldexp(usual, (int)power) : usual; // without gravity any speed is fast
+}

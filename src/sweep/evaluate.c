@@ -25,8 +25,10 @@ static void print_ranges(char out[SWEEP_RANGES_SIZE], const bike_critical_speeds
 
 static int answer_critical(sweep_row *row, const sweep_point *point, const sweep_spec *spec) {
   bike_critical_speeds speeds;
-  const int code =
-      bike_upright_critical_speeds(&speeds, &point->model, spec->search[0], spec->search[1]);
+  const bool given = !isnan(spec->search[1]);
+  const double low = given ? spec->search[0] : 0;
+  const double high = given ? spec->search[1] : bike_search_end(&point->model);
+  const int code = bike_upright_critical_speeds(&speeds, &point->model, low, high);
   if (code) return code;
   row->numbers[SWEEP_WEAVE_SPEED] = speeds.weave_count ? speeds.weave[0] : NAN;
   row->numbers[SWEEP_CAPSIZE_SPEED] = speeds.capsize_count ? speeds.capsize[0] : NAN;

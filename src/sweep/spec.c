@@ -236,7 +236,7 @@ static int read_document(sweep_spec *spec, const bike_yaml *yaml, const bike_tex
 
 int sweep_spec_read(sweep_spec *out, const char *path, bike_file_error *error) {
   const bike_basin_def fate = bike_default_basin_def();
-  *out = (sweep_spec){.search = {0, 20}, // m/s: where `bicycle stability` looks
+  *out = (sweep_spec){.search = {NAN, NAN}, // by each bicycle's size
                       .ride_time = fate.duration,
                       .settled = fate.settled};
   bike_text text;

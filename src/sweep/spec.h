@@ -58,9 +58,10 @@ typedef struct sweep_spec {
   bool has_seed;                            //
   uint64_t seed;                            //
   long draws;                               // of each point of the grid; 1 without drawn axes
-  double search[2];                         // m/s  where critical speeds are looked for
-  double ride_time;                         // s    when a ride is given up
-  double settled;                           // rad  as of bike_basin_def
+  double search[2]; // m/s  where critical speeds are looked for; NaN: from 0 to
+                    //      bike_search_end
+  double ride_time; // s    when a ride is given up
+  double settled;   // rad  as of bike_basin_def
   bool same_energy; // the speed is that of riding straight with the energy of the start
   long points;      // of the whole sweep
 } sweep_spec;

@@ -159,6 +159,43 @@ static void no_critical_speed_is_null(void **unused) {
   json_decref(stability);
 }
 
+#define ODD "\"" BICYCLE_SOURCE_DIR "/tests/odd_bicycles/"
+
+// Stable from the weave speed on: the end of the search is none of the bicycle's speeds.
+static void the_end_of_the_search_is_told(void **unused) {
+  (void)unused;
+  run_result text = run_command("bicycle stability " ODD "two_masses.yml\"");
+  assert_non_null(strstr(text.out, "2.841008323366 m/s to the end of the search at 40 m/s\n"));
+  run_free(&text);
+  json_t *open = run_json("bicycle stability " ODD "two_masses.yml\" --json");
+  assert_true(json_is_true(json_object_get(open, "stable_to_search_end")));
+  assert_near(entry(open, "stable_ranges", 0, 1), 40, 0);
+  json_decref(open);
+  json_t *closed = run_json("bicycle stability benchmark --json");
+  assert_true(json_is_false(json_object_get(closed, "stable_to_search_end")));
+  assert_int_equal(json_array_size(json_object_get(closed, "names_end")), 0);
+  json_decref(closed);
+}
+
+// Every command looks as far as the bicycle's size asks.
+static void a_giant_is_searched_far_enough(void **unused) {
+  (void)unused;
+  json_t *stability = run_json("bicycle stability " ODD "giant.yml\" --json");
+  json_t *effects = run_json("bicycle effects " ODD "giant.yml\" --json");
+  assert_near(run_number(stability, "weave_speed"), 42.9238, 1e-4);
+  assert_near(run_number(stability, "capsize_speed"), 60.2426, 1e-4);
+  assert_near(run_number(effects, "weave_speed"), run_number(stability, "weave_speed"), 0);
+  assert_near(run_number(effects, "capsize_speed"), run_number(stability, "capsize_speed"), 0);
+  assert_near(entry(stability, "stable_ranges", 0, 1), run_number(stability, "capsize_speed"), 0);
+  json_decref(stability);
+  json_decref(effects);
+  run_result sweep = run_command(
+      "printf 'bicycle: %s\\nsweep: {speed: [5]}\\noutputs: [weave_speed]\\n' " ODD "giant.yml\" "
+      "> giant.yml && bicycle sweep giant.yml -o giant > sweep.txt 2>&1; cat giant.csv");
+  assert_non_null(strstr(sweep.out, "42.92382536"));
+  run_free(&sweep);
+}
+
 static const char header[] =
     "time,x,y,yaw,lean,pitch,steer,lean_rate,steer_rate,speed,rear_angle,front_angle,energy,"
     "rear_normal,front_normal,rear_friction,front_friction\n";
@@ -382,6 +419,8 @@ int main(void) {
       cmocka_unit_test(linear_matrices_of_the_benchmark),
       cmocka_unit_test(stability_of_the_benchmark),
       cmocka_unit_test(slow_modes_have_names),
+      cmocka_unit_test(the_end_of_the_search_is_told),
+      cmocka_unit_test(a_giant_is_searched_far_enough),
       cmocka_unit_test(no_critical_speed_is_null),
       cmocka_unit_test(ride_writes_rows_at_multiples),
       cmocka_unit_test(ride_includes_its_end),

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modes of a linearised motion: eigenvalues with their eigenvectors, followed along a path and
-// named.
+// Modes of a linearised motion: eigenvalues with their eigenvectors and names.
 //
-// Names as in Meijaard, Papadopoulos, Ruina, Schwab (2007), section 6: weave, the oscillation of
-// steer and lean; capsize, the slow fall in which lean is large; castering, the fast decay in which
-// steer is large.
+// Names as in Meijaard, Papadopoulos, Ruina, Schwab (2007), section 6: weave, the oscillation in
+// which steer follows lean; capsize, the slow fall, or return, in which lean is large; castering,
+// the fast decay in which steer is large.
 #ifndef BICYCLE_MODES_H
 #define BICYCLE_MODES_H
 
@@ -29,23 +28,38 @@ typedef struct bike_modes {
 // "weave", "capsize", "castering", "capsize and castering", "unnamed".
 BIKE_API const char *bike_mode_string(bike_mode mode);
 
-// Modes of A (row-major, as of bike_linear). Named by their eigenvectors where that is clear: one
-// oscillation (weave) and two real modes, of which the one with the larger share of steer is
-// castering; otherwise unnamed. Errors: ARGUMENT, NOT_FINITE, NO_CONVERGENCE.
+// Modes of A (row-major, as of bike_linear), named by their eigenvectors where that is clear: two
+// real modes, of which the lower decays faster than the other grows or decays and has the larger
+// share of steer, are castering and capsize, and the oscillation beside them weave; so is one
+// without them if steer lags behind lean. Otherwise unnamed. Errors: ARGUMENT, NOT_FINITE,
+// NO_CONVERGENCE.
 BIKE_API int bike_modes_of(bike_modes *out, const double A[16]);
 
-// A matrix as a function of a parameter: 0 or an error code.
-typedef int bike_matrix_function(double A[16], double parameter, void *user);
-
-// Modes at `count` parameters in rising or falling order. Named by their eigenvectors at the place
-// of the list with one oscillation, the fastest, and from there by continuity: intervals are halved
-// until each mode is recognised in the next. Modes stay unnamed on a path without such a place.
-// Errors: those of the function and of bike_modes_of.
-BIKE_API int bike_modes_follow(bike_modes *out, const double *parameters, int count,
-                               bike_matrix_function *function, void *user);
-
-// The same for upright straight riding; parameters are speeds, m/s.
+// Modes of upright straight riding at speeds of any sign and in any order, m/s. The name of a mode
+// depends on the bicycle and the speed alone.
+//
+// Eigenvalues collide at isolated speeds; between them real ones keep their order and pairs stay
+// pairs. Names start between two collisions with one oscillation, the fastest in which steer lags
+// behind lean below bike_search_end: weave. Of the two real modes there capsize is the one that
+// passes zero, or, where neither or both do, the slower. They are carried from one collision to the
+// next, to any speed, backwards through zero. The two real modes that weave is made of are both
+// weave. Capsize and castering that join are JOINED, and told apart as above where they part.
+// Where weave meets one of these, both names end: what goes on from there is unnamed. So are all
+// modes of a bicycle that nowhere has one oscillation.
+// Errors: those of bike_linearize_upright and bike_modes_of.
 BIKE_API int bike_upright_modes(bike_modes *out, const bike_model *model, const double *speeds,
                                 int count);
+
+enum { BIKE_MAX_NAME_ENDS = 40 };
+
+// A speed at which modes of different names meet, and both names end.
+typedef struct bike_name_end {
+  double speed; // m/s; on the far side of it, seen from where names start, they are unnamed
+  bike_mode modes[2];
+} bike_name_end;
+
+// All of them, in no particular order. Same errors.
+BIKE_API int bike_upright_name_ends(bike_name_end out[BIKE_MAX_NAME_ENDS], int *count,
+                                    const bike_model *model);
 
 #endif

@@ -38,6 +38,11 @@ BIKE_API bool bike_all_decay(const bike_eigenvalues *eigenvalues);
 // Eigenvalues of upright straight riding at a speed (any sign, zero included).
 BIKE_API int bike_upright_eigenvalues(bike_eigenvalues *out, const bike_model *model, double speed);
 
+// Where a range of speeds to look in ends unless one is given, m/s: well above the speeds at which
+// a bicycle of this size is ridden. 40 where sqrt(g L), L the reach of the model, is what people
+// ride on earth, 2^k times that where it is 2^k times as large (Froude's similarity).
+BIKE_API double bike_search_end(const bike_model *model);
+
 // All critical speeds with low <= speed <= high (0 <= low < high), to 1e-13 relative.
 BIKE_API int bike_upright_critical_speeds(bike_critical_speeds *out, const bike_model *model,
                                           double low, double high);
