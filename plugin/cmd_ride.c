@@ -19,7 +19,9 @@ static const char documentation[] =
     "the name of a shipped bicycle, or a model (.xml, .mjb) with the bodies and joints that "
     "`bicycle mujoco mjcf` writes; a model starts from its keyframe 'test' unless a state is "
     "given. Any other model in which something rolls (libmujoco_rolling) rides in its own "
-    "coordinates: rows of its joints, discs and sensors. "
+    "coordinates: rows of its joints, discs and sensors; what it asks of the ground is then looked "
+    "at "
+    "in rows. "
     "A step at which MuJoCo warns, resets its time or loses the rolling constraint ends the ride "
     "with exit status 3. Events are those of `bicycle ride`, but for the end of the model's "
     "validity: where its coordinates end MuJoCo's go on, and with them the ride. T and DT are "
@@ -85,7 +87,8 @@ typedef struct rider {
   runner_any *any; // instead of `run`: a model that is no bicycle
   mjcf_error why;  // it is none
   term_ride ride;
-  cmd_disc discs[2]; // rear, front
+  cmd_disc discs[2];  // rear, front
+  term_limits limits; // those asked for, with the reach of the bicycle
   cmd_sensors sensors;
   cmd_shot shot;
 } rider;
@@ -122,7 +125,8 @@ static json_t *more_json(const rider *self, const runner_ride_result *result, do
   return more;
 }
 
-static void note_lifts(rider *self, const runner_ride_result *result) {
+static void note_ground(rider *self, const runner_ride_result *result) {
+  for (int i = 0; i < 2; i++) self->discs[i].ground = result->ground[i];
   for (int i = 0; i < result->event_count && i < BIKE_MAX_EVENTS; i++) {
     const bike_event *event = &result->events[i];
     if (event->kind == BIKE_EVENT_REAR_LIFT) cmd_disc_lift(&self->discs[0], event->time);
@@ -145,7 +149,7 @@ static term_exit ride(rider *self) {
   char note[128];
   snprintf(note, sizeof note, ", slip %.1e m/s, height error %.1e m, %.0f times real time",
            slip_of(self), height_of(self), factor);
-  note_lifts(self, &result);
+  note_ground(self, &result);
   const term_ride_outcome outcome = {
       .bicycle = runner_model(self->run)->names, // the model's name comes first
       .end_time = result.end_time,
@@ -153,6 +157,8 @@ static term_exit ride(rider *self) {
       .end = status == RUNNER_OK ? &result.end : NULL,
       .event_count = result.event_count,
       .events = result.events,
+      .ground = result.ground,
+      .limits = self->limits,
       .error = whole ? NULL : error.text,
       .note = note,
       .more = more_json(self, &result, factor)};
@@ -202,6 +208,7 @@ static term_exit make_model(rider *self) {
   double rider_offset = args->ride.constant.rider_offset;
   term_exit code = term_load_with_rider(&bicycle, &model, args->ride.start.file, rider_offset);
   if (code != TERM_DONE) return code;
+  term_set_reach(&self->limits, &bicycle);
   mjcf_options made = args->model.options;
   made.rider_offset = rider_offset;
   made.moving_rider = self->ride.table && bike_input_table_has_rider(self->ride.table);
@@ -260,6 +267,7 @@ static term_exit prepare(rider *self) {
                                 .sample = asked->sample,
                                 .lean_limit = asked->lean_limit,
                                 .stop_at_lift = asked->stop_at_lift,
+                                .friction_limit = asked->limits.friction,
                                 .input = give_input,
                                 .on_sample = take_sample,
                                 .user = self};
@@ -296,6 +304,7 @@ int cmd_ride(int argc, char **argv) {
   check_model(&args);
 
   rider self = {.args = &args, .discs = {{.name = "rear_wheel"}, {.name = "front_wheel"}}};
+  self.limits = args.ride.limits;
   // The input says whether the model's rider must be able to move.
   term_exit code = term_ride_begin(&self.ride, &args.ride);
   if (code == TERM_DONE) code = args.is_model ? load_model(&self) : make_model(&self);

@@ -29,6 +29,7 @@ static term_exit check_options(const cmd_ride_arguments *args, const char *why) 
   if (args->ride.show.convention != BIKE_CONVENTION_ISO) option = "--convention";
   if (args->ride.lean_limit != runner_default_ride_def().lean_limit) option = "--lean-limit";
   if (args->ride.action) option = args->ride.action;
+  if (args->ride.limits.reach > 0) option = "--reach";
   if (args->has_start) option = "--speed and the like";
   if (!option) return TERM_DONE;
   return term_fail(TERM_USAGE, "%s: %s: only for a bicycle (%s)", file, option, why);
@@ -48,6 +49,11 @@ static bool begin_rows(outing *o, const runner_moment *moment) {
   return true;
 }
 
+static void take_disc(const outing *o, int i, double time, const roll_disc *now) {
+  cmd_disc_take(&o->discs[i], mju_norm3(now->slip), now->height);
+  cmd_disc_press(&o->discs[i], time, now->force, now->normal_force, o->args->ride.limits.friction);
+}
+
 static int take(const runner_moment *moment, void *user) {
   outing *o = user;
   if (!o->columns.names && !begin_rows(o, moment)) {
@@ -56,7 +62,7 @@ static int take(const runner_moment *moment, void *user) {
   }
   cmd_columns_take(&o->columns, moment);
   for (int i = 0; i < runner_any_disc_count(o->run); i++)
-    cmd_disc_take(&o->discs[i], mju_norm3(moment->discs[i].slip), moment->discs[i].height);
+    take_disc(o, i, moment->time, &moment->discs[i]);
   cmd_sensors_take(&o->sensors, moment->data->sensordata);
   cmd_shot_take(&o->shot, moment->time, moment->data->qpos);
   if (o->ride->output.stream) cmd_columns_put_row(o->ride->output.stream, &o->columns);
@@ -87,6 +93,8 @@ static bool print_json(const outing *o, const runner_any_result *result, const c
                 (json_int_t)o->ride->record.count, "end", cmd_columns_json(&o->columns), "discs",
                 cmd_discs_json(o->discs, count), "timestep", term_json_number(model->opt.timestep),
                 "steps", (json_int_t)result->steps, "real_time_factor", term_json_number(factor));
+  json_object_set_new(document, "outside_physics",
+                      cmd_discs_outside_json(o->discs, count, &o->args->ride.limits));
   if (o->args->sensors) json_object_set_new(document, "sensors", cmd_sensors_json(&o->sensors));
   if (error) json_object_set_new(document, "error", json_string(error));
   if (o->ride->record.columns) json_object_set(document, "samples", o->ride->record.columns);
@@ -97,7 +105,10 @@ static term_exit report(outing *o, const runner_any_result *result, const char *
                         term_exit code) {
   if (!term_ride_close(o->ride, &code)) return code;
   double factor = result->wall_time > 0 ? result->end_time / result->wall_time : 0;
-  cmd_discs_tell(o->discs, runner_any_disc_count(o->run));
+  int count = runner_any_disc_count(o->run);
+  for (int i = 0; i < count; i++) bike_ground_end(&o->discs[i].ground, result->end_time);
+  cmd_discs_tell(o->discs, count);
+  cmd_discs_outside_tell(o->discs, count, &o->args->ride.limits);
   cmd_sensors_tell(&o->sensors);
   term_message("%ld rows to %.9g s, %.0f times real time", o->ride->record.count, result->end_time,
                factor);

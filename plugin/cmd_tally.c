@@ -20,6 +20,16 @@ void cmd_disc_take(cmd_disc *disc, double slip, double height) {
 void cmd_disc_lift(cmd_disc *disc, double time) {
   if (disc->lift_count < CMD_MOST_LIFTS) disc->lifts[disc->lift_count] = time;
   disc->lift_count++;
+  bike_spells_set(&disc->ground.lifted, true, time);
+}
+
+void cmd_disc_press(cmd_disc *disc, double time, const double force[3], double normal,
+                    double friction_limit) {
+  double square = force[0] * force[0] + force[1] * force[1] + force[2] * force[2];
+  const double parts[3] = {sqrt(fmax(0, square - normal * normal)), 0, normal};
+  bike_ground_look(&disc->ground, time, parts);
+  bike_spells_set(&disc->ground.lifted, !(normal > 0), time);
+  bike_spells_set(&disc->ground.no_grip, !(bike_grip(parts, friction_limit) > 0), time);
 }
 
 static int kept(const cmd_disc *disc) {
@@ -30,9 +40,10 @@ json_t *cmd_discs_json(const cmd_disc *discs, int count) {
   json_t *array = json_array();
   for (int i = 0; i < count; i++)
     json_array_append_new(array,
-                          json_pack("{s:s, s:o, s:o, s:o}", "name", discs[i].name, "lifts",
+                          json_pack("{s:s, s:o, s:o, s:o, s:o}", "name", discs[i].name, "lifts",
                                     term_json_numbers(discs[i].lifts, (size_t)kept(&discs[i])),
-                                    "slip", term_json_number(discs[i].slip), "height_error",
+                                    "friction", term_json_number(discs[i].ground.friction), "slip",
+                                    term_json_number(discs[i].slip), "height_error",
                                     term_json_number(discs[i].height)));
   return array;
 }
@@ -43,8 +54,38 @@ void cmd_discs_tell(const cmd_disc *discs, int count) {
     if (discs[i].lift_count > 0)
       snprintf(lifts, sizeof lifts, "lifts %d time%s, first at %.6g s", discs[i].lift_count,
                discs[i].lift_count == 1 ? "" : "s", discs[i].lifts[0]);
-    term_message("%s: %s; slip %.1e m/s, height error %.1e m", discs[i].name, lifts, discs[i].slip,
-                 discs[i].height);
+    char friction[32];
+    term_friction_text(friction, discs[i].ground.friction);
+    term_message("%s: %s; asks friction %s; slip %.1e m/s, height error %.1e m", discs[i].name,
+                 lifts, friction, discs[i].slip, discs[i].height);
+  }
+}
+
+static term_outside outside_of(const cmd_disc *disc, const term_limits *limits) {
+  term_outside out = {0};
+  term_outside_ride(&out, disc->name, true, &disc->ground, limits);
+  return out;
+}
+
+json_t *cmd_discs_outside_json(const cmd_disc *discs, int count, const term_limits *limits) {
+  json_t *all = json_array();
+  for (int i = 0; i < count; i++) {
+    const term_outside outside = outside_of(&discs[i], limits);
+    json_t *list = term_outside_json(&outside);
+    json_array_extend(all, list);
+    json_decref(list);
+  }
+  return all;
+}
+
+void cmd_discs_outside_tell(const cmd_disc *discs, int count, const term_limits *limits) {
+  for (int i = 0; i < count; i++) {
+    const term_outside outside = outside_of(&discs[i], limits);
+    for (int k = 0; k < outside.count; k++) {
+      char text[TERM_OUTSIDE_SIZE];
+      term_outside_text(text, &outside.items[k]);
+      term_message("outside physics: %s", text);
+    }
   }
 }
 

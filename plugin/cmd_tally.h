@@ -4,6 +4,7 @@
 #define PLUGIN_CMD_TALLY_H
 
 #include "terminal/json.h"
+#include "terminal/outside.h"
 
 #include <mujoco/mujoco.h>
 #include <stdbool.h>
@@ -18,15 +19,25 @@ typedef struct cmd_disc {
   double slip, height;          // m/s, m  largest of the rows
   int lift_count;               //         of lift-offs; the first CMD_MOST_LIFTS are kept
   double lifts[CMD_MOST_LIFTS]; // s
+  bike_wheel_ground ground;     //         of any model looked at in rows
 } cmd_disc;
 
 // A row's slip and height error; a NaN stays to be seen.
 void cmd_disc_take(cmd_disc *disc, double slip, double height);
 void cmd_disc_lift(cmd_disc *disc, double time);
 
-// [{name, lifts: [s], slip, height_error}]
+// A row's force of the ground, `normal` of it along the ground's normal, N. What holds at a row
+// holds from it, a lift from its own time.
+void cmd_disc_press(cmd_disc *disc, double time, const double force[3], double normal,
+                    double friction_limit);
+
+// [{name, lifts: [s], friction, slip, height_error}]; friction without bound is null.
 json_t *cmd_discs_json(const cmd_disc *discs, int count);
 void cmd_discs_tell(const cmd_disc *discs, int count);
+
+// What of that no ground can do; after bike_ground_end.
+json_t *cmd_discs_outside_json(const cmd_disc *discs, int count, const term_limits *limits);
+void cmd_discs_outside_tell(const cmd_disc *discs, int count, const term_limits *limits);
 
 //---------------------------------- sensors -------------------------------------------------------
 

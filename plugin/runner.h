@@ -137,19 +137,20 @@ typedef struct runner_sample {
 typedef int runner_sample_function(const runner_sample *sample, void *user);
 
 typedef struct runner_ride_def {
-  double duration;                   // s    > 0, a multiple of the timestep; rows at k * sample
-  double sample;                     // s    a multiple of the timestep
-  double lean_limit;                 // rad  0 < limit < pi/2
-  bool stop_at_lift;                 //      a lift event ends the ride
-  double tolerance;                  //      0: MuJoCo's own integrator. > 0: SUNDIALS' CVODE around
-                                     //      mj_forward instead, with this relative and absolute
-                                     //      tolerance; the timestep then is that of the output
-  bike_input_function *input;        //      NULL: hands off; evaluated at every stage of a step
+  double duration;            // s    > 0, a multiple of the timestep; rows at k * sample
+  double sample;              // s    a multiple of the timestep
+  double lean_limit;          // rad  0 < limit < pi/2
+  bool stop_at_lift;          //      a lift event ends the ride
+  double friction_limit;      //      as in bike_ride_def; 0: any horizontal force is too much
+  double tolerance;           //      0: MuJoCo's own integrator. > 0: SUNDIALS' CVODE around
+                              //      mj_forward instead, with this relative and absolute
+                              //      tolerance; the timestep then is that of the output
+  bike_input_function *input; //      NULL: hands off; evaluated at every stage of a step
   runner_sample_function *on_sample; //      required
   void *user;                        //      for both functions
 } runner_ride_def;
 
-// 10 s in rows of 10 ms, the lean limit of bike_default_ride_def.
+// 10 s in rows of 10 ms, the lean and friction limits of bike_default_ride_def.
 runner_ride_def runner_default_ride_def(void);
 
 // Whether runner_ride would take the definition: RUNNER_OK or RUNNER_ARGUMENT.
@@ -167,6 +168,8 @@ typedef struct runner_ride_result {
                                       //      of bicycle/ride.h, but there is no
                                       //      BIKE_EVENT_VALIDITY: MuJoCo rides on where the
                                       //      coordinates of the equations end
+  bike_wheel_ground ground[2];        //      looked at after every step; intervals to linear
+                                      //      interpolation within one
   long steps;                         //      of the integrator
   long evaluations;                   //      of mj_forward by the integrator
   double wall_time;                   // s    spent in mj_step or CVODE alone

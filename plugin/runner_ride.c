@@ -7,8 +7,11 @@
 #include <string.h>
 
 runner_ride_def runner_default_ride_def(void) {
-  return (runner_ride_def){
-      .duration = 10, .sample = 0.01, .lean_limit = bike_default_ride_def().lean_limit};
+  bike_ride_def usual = bike_default_ride_def();
+  return (runner_ride_def){.duration = 10,
+                           .sample = 0.01,
+                           .lean_limit = usual.lean_limit,
+                           .friction_limit = usual.friction_limit};
 }
 
 // A ride under way.
@@ -35,17 +38,12 @@ runner_status runner_check_ride(const runner *r, const runner_ride_def *def, mjc
   if (!(def->lean_limit > 0 && def->lean_limit < mjPI / 2))
     return refuse(error, "the lean limit must be above 0 and below 90 deg: lying flat, the axes of "
                          "yaw and pitch are one");
+  if (!(def->friction_limit >= 0 && isfinite(def->friction_limit)))
+    return refuse(error, "the friction limit must not be negative");
   // Below a few roundings no step is accurate enough.
   if (!(def->tolerance == 0 || (def->tolerance >= 1e-15 && def->tolerance < 1)))
     return refuse(error, "the tolerance must be 0, or lie between 1e-15 and 1");
   return RUNNER_OK;
-}
-
-// As in the rows of the analytic ride: with the sign of the normal force, and 0 where nothing is
-// asked of the ground.
-static double friction_of(const double force[3]) {
-  double horizontal = hypot(force[0], force[1]);
-  return horizontal == 0 ? 0 : horizontal / force[2];
 }
 
 static bike_sample row_of(const runner_instant *a, double time) {
@@ -64,8 +62,8 @@ static bike_sample row_of(const runner_instant *a, double time) {
                        .energy = a->kinetic + a->potential,
                        .rear_normal = a->force[RUNNER_REAR][2],
                        .front_normal = a->force[RUNNER_FRONT][2],
-                       .rear_friction = friction_of(a->force[RUNNER_REAR]),
-                       .front_friction = friction_of(a->force[RUNNER_FRONT])};
+                       .rear_friction = bike_friction(a->force[RUNNER_REAR]),
+                       .front_friction = bike_friction(a->force[RUNNER_FRONT])};
 }
 
 // Nonzero if the caller wants to stop.
@@ -80,6 +78,28 @@ static int emit(const course *c, double time) {
     s.height_rate[i] = a->height_rate[i];
   }
   return c->def->on_sample(&s, c->def->user);
+}
+
+//---------------------------------- the ground ----------------------------------------------------
+
+// Holds while an indicator is not positive: g0 at `time` - step, g1 at `time`, linear between.
+static void follow(bike_spells *spells, double g0, double g1, double time, double step) {
+  bool on = g1 <= 0;
+  bool crosses = (g0 <= 0) != on;
+  bike_spells_set(spells, on, crosses ? time - step * (g1 / (g1 - g0)) : time);
+}
+
+// What the ground has to do at an instant, and had to since that of `before`, a step ago.
+static void look_at_ground(const course *c, double time, const runner_instant *now, double step,
+                           const runner_instant *before) {
+  double limit = c->def->friction_limit;
+  for (int i = 0; i < RUNNER_WHEELS; i++) {
+    bike_wheel_ground *wheel = &c->out->ground[i];
+    const double *old = before->force[i], *force = now->force[i];
+    bike_ground_look(wheel, time, force);
+    follow(&wheel->lifted, old[2], force[2], time, step);
+    follow(&wheel->no_grip, bike_grip(old, limit), bike_grip(force, limit), time, step);
+  }
 }
 
 //---------------------------------- events --------------------------------------------------------
@@ -163,6 +183,7 @@ static runner_instant between(const runner_instant *before, const runner_instant
 // The end of a ride at `time`, within the step that ended at `now`.
 static void end_within(const course *c, double time, double now, const runner_instant *before) {
   runner_instant end = between(before, &c->at, 1 - (now - time) / c->step);
+  look_at_ground(c, time, &end, time - (now - c->step), before);
   c->out->end_time = time;
   c->out->end = row_of(&end, time);
 }
@@ -217,6 +238,7 @@ static runner_status ride(course *c) {
   if (status != RUNNER_OK) return status;
   runner_settle_start(&c->at, c->r);
   c->start_speed = c->at.speed;
+  look_at_ground(c, 0, &c->at, 0, &c->at);
   if (emit(c, 0) != 0) return RUNNER_INTERRUPTED;
   c->out->end = row_of(&c->at, 0);
   if (!isnan(find_events_at_start(c))) return RUNNER_OK;
@@ -231,6 +253,7 @@ static runner_status ride(course *c) {
       end_within(c, end, c->out->end_time, &before);
       return RUNNER_OK;
     }
+    look_at_ground(c, c->out->end_time, &c->at, c->step, &before);
     if (i % steps_per_sample == 0 && emit(c, (double)(i / steps_per_sample) * c->def->sample) != 0)
       return RUNNER_INTERRUPTED;
   }
@@ -259,6 +282,7 @@ runner_status runner_ride(runner_ride_result *out, runner *r, const runner_ride_
     }
   }
   status = ride(&c);
+  for (int i = 0; i < RUNNER_WHEELS; i++) bike_ground_end(&out->ground[i], out->end_time);
   runner_cvode_free(c.cvode);
   r->input = NULL;
   r->user = NULL;

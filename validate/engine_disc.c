@@ -130,7 +130,7 @@ static trace_row row_of(const disc *d, const double s[DISC_STATES], double time)
                               .rear_angle = s[DISC_SPIN],
                               .energy = disc_kinetic(s, &d->body) + disc_potential(s, &d->body),
                               .rear_normal = force[2],
-                              .rear_friction = hypot(force[0], force[1]) / force[2]}};
+                              .rear_friction = bike_friction(force)}};
   memcpy(row.more.rear_force, force, sizeof force);
   return row;
 }

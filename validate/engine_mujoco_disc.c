@@ -214,7 +214,7 @@ static term_exit record(trace *out, const disc *d, double time, problem *p) {
   s->rear_angle = qpos[SPIN];
   s->energy = d->probe->energy[0] + d->probe->energy[1];
   s->rear_normal = force[2];
-  s->rear_friction = hypot(force[0], force[1]) / force[2];
+  s->rear_friction = bike_friction(force);
   row.slip[0] = mju_norm3(at.slip);
   row.height[0] = at.height;
   return trace_add(out, &row) ? TERM_DONE : problem_memory(p);

@@ -15,8 +15,9 @@ static const char example[] = "Example: bicycle ride roadster --speed 6 --lean-r
 static const char documentation[] =
     "Rides a bicycle from a given state, hands off or with one of the inputs, and writes the "
     "motion as CSV, one row at every multiple of the sampling time. Wheel lift is reported and "
-    "does not end the ride; lying down, standstill and the end of the model's validity do. FILE is "
-    "a bicycle file or the name of a shipped bicycle.";
+    "does not end the ride; lying down, standstill and the end of the model's validity do. At the "
+    "end the largest friction asked is told, and what no ground and no rider can do. FILE is a "
+    "bicycle file or the name of a shipped bicycle.";
 
 typedef struct arguments {
   term_ride_options ride;
@@ -86,6 +87,7 @@ static void complete_def(arguments *args) {
   args->def.sample = ride->sample;
   args->def.lean_limit = ride->lean_limit;
   args->def.stop_at_lift = ride->stop_at_lift;
+  args->def.friction_limit = ride->limits.friction;
 }
 
 //---------------------------------- the ride ------------------------------------------------------
@@ -121,6 +123,8 @@ static term_exit ride(term_ride *self, bike_ride_def def, const bike_bicycle *bi
                                      .end = whole ? &result.end : NULL,
                                      .event_count = result.event_count,
                                      .events = result.events,
+                                     .ground = result.ground,
+                                     .limits = self->options->limits,
                                      .error = whole ? NULL : bike_error_string(error),
                                      .note = "",
                                      .more = json_pack("{s:I, s:I}", "evaluations",
@@ -142,6 +146,7 @@ int cmd_ride(int argc, char **argv) {
   term_ride self = {0};
   term_exit code =
       term_load_with_rider(&bicycle, &model, args.ride.start.file, args.ride.constant.rider_offset);
+  if (code == TERM_DONE) term_set_reach(&args.ride.limits, &bicycle);
   if (code == TERM_DONE) code = term_ride_begin(&self, &args.ride);
   if (code == TERM_DONE) code = ride(&self, args.def, &bicycle, &model);
   term_ride_free(&self);

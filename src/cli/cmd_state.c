@@ -2,6 +2,7 @@
 // bicycle state: the equations evaluated once.
 #include "commands.h"
 #include "terminal/json.h"
+#include "terminal/outside.h"
 #include "terminal/start.h"
 #include "terminal/table.h"
 
@@ -12,11 +13,14 @@ static const char example[] =
 
 static const char documentation[] =
     "Accelerations, geometry, energy and ground forces of the bicycle at one instant. FILE is a "
-    "bicycle file or the name of a shipped bicycle.";
+    "bicycle file or the name of a shipped bicycle. What no ground and no rider can do (a wheel "
+    "that is pulled, more friction than --friction, a rider beyond --reach) is marked as outside "
+    "physics: the equations answer there too.";
 
 typedef struct arguments {
   term_start start;
   bike_input input;
+  term_limits limits;
   term_show show;
 } arguments;
 
@@ -27,7 +31,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &args->start;
-    state->child_inputs[1] = &args->show;
+    state->child_inputs[1] = &args->limits;
+    state->child_inputs[2] = &args->show;
     return 0;
   case KEY_STEER_TORQUE:
     args->input.steer_torque = term_number_of("--steer-torque", text);
@@ -53,7 +58,7 @@ typedef struct answer {
   const char *unit;
 } answer;
 
-enum { ANSWER_COUNT = 21 };
+enum { ANSWER_COUNT = 23 };
 
 // Every number of a state under its key; `left` is the sign of what is left positive in ISO.
 static void collect(answer out[ANSWER_COUNT], const bike_state *state,
@@ -80,6 +85,8 @@ static void collect(answer out[ANSWER_COUNT], const bike_state *state,
       {"kinetic", snapshot->kinetic, "J"},
       {"potential", snapshot->potential, "J"},
       {"energy", snapshot->kinetic + snapshot->potential, "J"},
+      {"rear_friction", bike_friction(snapshot->rear_force), ""},
+      {"front_friction", bike_friction(snapshot->front_force), ""},
   };
   for (int i = 0; i < ANSWER_COUNT; i++) out[i] = answers[i];
 }
@@ -89,8 +96,18 @@ static json_t *force_json(const double force[3], double left) {
   return term_json_numbers(shown, 3);
 }
 
+static term_outside outside_of(const bike_snapshot *snapshot, const arguments *args) {
+  term_outside out = {0};
+  const double *rear = snapshot->rear_force, *front = snapshot->front_force;
+  term_outside_wheel(&out, "rear", rear[2], bike_friction(rear), &args->limits);
+  term_outside_wheel(&out, "front", front[2], bike_friction(front), &args->limits);
+  term_outside_rider(&out, args->input.rider_offset, &args->limits);
+  return out;
+}
+
 static bool print_json(const bike_bicycle *bicycle, const answer answers[ANSWER_COUNT],
-                       const bike_snapshot *snapshot, bike_convention convention) {
+                       const bike_snapshot *snapshot, const term_outside *outside,
+                       bike_convention convention) {
   double left = term_left_sign(convention);
   json_t *document = json_pack("{s:s, s:s}", "bicycle", bicycle->name, "convention",
                                term_convention_name(convention));
@@ -100,6 +117,7 @@ static bool print_json(const bike_bicycle *bicycle, const answer answers[ANSWER_
   json_object_set_new(document, "front_force", force_json(snapshot->front_force, left));
   json_object_set_new(document, "force_axes",
                       json_pack("[s, s, s]", "forward", term_lateral_name(convention), "up"));
+  json_object_set_new(document, "outside_physics", term_outside_json(outside));
   return term_json_write(document, stdout);
 }
 
@@ -120,7 +138,8 @@ static void add_force(term_table *table, const char *wheel, const double force[3
 }
 
 static bool print_table(const bike_bicycle *bicycle, const answer answers[ANSWER_COUNT],
-                        const bike_snapshot *snapshot, bike_convention convention) {
+                        const bike_snapshot *snapshot, const term_outside *outside,
+                        bike_convention convention) {
   static const term_column columns[] = {
       {"quantity", TERM_LEFT}, {"value", TERM_RIGHT}, {"unit", TERM_LEFT}};
   term_table *table = term_table_create(columns, 3);
@@ -131,12 +150,19 @@ static bool print_table(const bike_bicycle *bicycle, const answer answers[ANSWER
   printf("%s, convention %s\n", bicycle->name, term_convention_name(convention));
   bool printed = term_table_print(table, stdout);
   term_table_free(table);
+  for (int i = 0; i < outside->count; i++) {
+    char text[TERM_OUTSIDE_SIZE];
+    term_outside_text(text, &outside->items[i]);
+    printf("outside physics: %s\n", text);
+  }
   return printed;
 }
 
 int cmd_state(int argc, char **argv) {
-  const struct argp_child children[] = {
-      {&term_start_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
+  const struct argp_child children[] = {{&term_start_argp, 0, NULL, 0},
+                                        {&term_limits_argp, 0, NULL, 0},
+                                        {&term_show_argp, 0, NULL, 0},
+                                        {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {0};
   term_parse(&argp, example, argc, argv, &args);
@@ -150,9 +176,12 @@ int cmd_state(int argc, char **argv) {
   int error = bike_evaluate(&snapshot, &model, &args.start.state, &args.input);
   if (error != BIKE_OK) return term_fail_bike(error, args.start.file);
 
+  term_set_reach(&args.limits, &bicycle);
+  const term_outside outside = outside_of(&snapshot, &args);
   answer answers[ANSWER_COUNT];
   collect(answers, &args.start.state, &snapshot, term_left_sign(args.show.convention));
-  bool printed = args.show.json ? print_json(&bicycle, answers, &snapshot, args.show.convention)
-                                : print_table(&bicycle, answers, &snapshot, args.show.convention);
+  bool printed = args.show.json
+                     ? print_json(&bicycle, answers, &snapshot, &outside, args.show.convention)
+                     : print_table(&bicycle, answers, &snapshot, &outside, args.show.convention);
   return printed ? TERM_DONE : term_fail_bike(BIKE_ERROR_MEMORY, args.start.file);
 }

@@ -18,11 +18,14 @@ static const char documentation[] =
     "torque: every one that has the two values given, with its eigenvalues at constant energy. "
     "--speed or --rider-offset alone shows the folds and ends of the branches. A bicycle without "
     "a rider has --rider-offset 0. At a capsize speed, where riding straight is neutrally stable, "
-    "the turns that branch off it are not distinct from it, and not listed.";
+    "the turns that branch off it are not distinct from it, and not listed. What no ground and no "
+    "rider can do (a wheel that is pulled, more friction than --friction, a rider beyond --reach) "
+    "is marked as outside physics.";
 
 typedef struct arguments {
   term_question question;
   bike_turn_def def;
+  term_limits limits;
 } arguments;
 
 // In the order of bike_turn_variable.
@@ -83,6 +86,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &args->question;
+    state->child_inputs[1] = &args->limits;
     return 0;
   case KEY_VARIABLE + BIKE_TURN_SPEED:
   case KEY_VARIABLE + BIKE_TURN_LEAN:
@@ -135,7 +139,8 @@ static term_exit fail(int error, const bike_turns *found, const char *file) {
 }
 
 int cmd_turn(int argc, char **argv) {
-  const struct argp_child children[] = {{&term_question_argp, 0, NULL, 0}, {0}};
+  const struct argp_child children[] = {
+      {&term_question_argp, 0, NULL, 0}, {&term_limits_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {options, parse, "FILE", documentation, children, NULL, NULL};
   arguments args = {.def = bike_default_turn_def()};
   term_parse(&argp, example, argc, argv, &args);
@@ -145,6 +150,7 @@ int cmd_turn(int argc, char **argv) {
   term_exit code = term_load_bicycle(&bicycle, &model, args.question.file);
   if (code != TERM_DONE) return code;
   args.def = bike_turn_limits(&args.def, &model);
+  term_set_reach(&args.limits, &bicycle);
   code = check_range(&args.def);
   if (code != TERM_DONE) return code;
 
@@ -154,7 +160,7 @@ int cmd_turn(int argc, char **argv) {
   if (error != BIKE_OK) {
     code = fail(error, found, args.question.file);
   } else {
-    turn_answer answer = {&bicycle, &model, &args.def, found};
+    turn_answer answer = {&bicycle, &model, &args.def, found, &args.limits};
     bool printed = args.question.show.json
                        ? turn_print_json(&answer, args.question.show.convention)
                        : turn_print_tables(&answer, args.question.show.convention);

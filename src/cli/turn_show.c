@@ -15,6 +15,14 @@ static bool has_lifted(const bike_turn *turn) {
   return turn->rear_normal < 0 || turn->front_normal < 0;
 }
 
+static term_outside outside_of(const turn_answer *a, const bike_turn *turn) {
+  term_outside out = {0};
+  term_outside_wheel(&out, "rear", turn->rear_normal, turn->rear_friction, a->limits);
+  term_outside_wheel(&out, "front", turn->front_normal, turn->front_friction, a->limits);
+  term_outside_rider(&out, turn->rider_offset, a->limits);
+  return out;
+}
+
 // Straight riding at a capsize speed, where no other eigenvalue decides: the one that vanishes is
 // zero to the 1e-11 of the speed at which the library takes it for that speed.
 static bool is_neutral(const bike_turn *turn) {
@@ -127,7 +135,9 @@ static json_t *turn_json(const turn_answer *a, const bike_turn *t, double left) 
     json_object_set_new(object, numbers[i].key, term_json_number(numbers[i].value));
   json_object_set_new(object, "eigenvalues", term_json_matrix(values, 4, 2));
   json_object_set_new(object, "modes", mode_names(a->model, t));
+  const term_outside outside = outside_of(a, t);
   json_object_set_new(object, "lifted", json_boolean(has_lifted(t)));
+  json_object_set_new(object, "outside_physics", term_outside_json(&outside));
   json_object_set_new(object, "neutral", json_boolean(is_neutral(t)));
   json_object_set_new(object, "main_family", json_boolean(t->main_family));
   return object;
@@ -165,27 +175,30 @@ bool turn_print_json(const turn_answer *a, bike_convention convention) {
   return term_json_write(document, stdout);
 }
 
-static bool print_list(const char *title, const bike_turn *turns, int count, double left,
-                       bool marks) {
-  static const term_column columns[] = {
-      {"lean deg", TERM_RIGHT}, {"steer deg", TERM_RIGHT},      {"speed m/s", TERM_RIGHT},
-      {"rider cm", TERM_RIGHT}, {"radius m", TERM_RIGHT},       {"eps_max 1/s", TERM_RIGHT},
-      {"stable", TERM_LEFT},    {"friction asked", TERM_RIGHT}, {"", TERM_LEFT}};
+static bool print_list(const turn_answer *a, const char *title, const bike_turn *turns, int count,
+                       double left, bool marks) {
+  static const term_column columns[] = {{"lean deg", TERM_RIGHT},  {"steer deg", TERM_RIGHT},
+                                        {"speed m/s", TERM_RIGHT}, {"rider cm", TERM_RIGHT},
+                                        {"radius m", TERM_RIGHT},  {"eps_max 1/s", TERM_RIGHT},
+                                        {"stable", TERM_LEFT},     {"friction asked", TERM_RIGHT},
+                                        {"", TERM_LEFT},           {"outside physics", TERM_LEFT}};
   if (count == 0) return true;
-  term_table *table = term_table_create(columns, 9);
+  term_table *table = term_table_create(columns, 10);
   for (int i = 0; i < count; i++) {
     const bike_turn *t = &turns[i];
     const double numbers[6] = {t->lean / DEGREE, left * t->steer / DEGREE,
                                t->speed,         100 * t->rider_offset,
                                t->radius,        t->eps_max};
-    char text[6][32], friction[32], mark[64];
+    char text[6][32], friction[32], mark[64], outside[TERM_OUTSIDE_SIZE];
     for (int k = 0; k < 6; k++) snprintf(text[k], sizeof text[k], "%.6g", shown(numbers[k]));
     snprintf(friction, sizeof friction, "%.2f", fmax(t->rear_friction, t->front_friction));
     describe_mark(mark, t);
+    const term_outside what = outside_of(a, t);
+    term_outside_brief(outside, &what);
     const char *note = marks ? mark : "", *stable = stability_of(t);
     const char *cells[] = {text[0], text[1], text[2], text[3],
                            text[4], text[5], stable,  has_lifted(t) ? "lifted" : friction,
-                           note};
+                           note,    outside};
     term_table_add(table, strcmp(stable, "yes") == 0 ? TERM_GOOD : TERM_PLAIN, cells);
   }
   printf("\n%s\n", title);
@@ -202,8 +215,8 @@ bool turn_print_tables(const turn_answer *a, bike_convention convention) {
   printf("%s, stationary turns, convention %s\n", a->bicycle->name,
          term_convention_name(convention));
   if (text) printf("\n%s\n", text);
-  return print_list("turns:", f->turns, first, left, false) &&
-         print_list("elsewhere (families that do not meet straight riding):", f->turns + first,
+  return print_list(a, "turns:", f->turns, first, left, false) &&
+         print_list(a, "elsewhere (families that do not meet straight riding):", f->turns + first,
                     f->count - first, left, false) &&
-         print_list("folds and ends:", f->marks, f->mark_count, left, true);
+         print_list(a, "folds and ends:", f->marks, f->mark_count, left, true);
 }

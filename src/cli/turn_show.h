@@ -4,6 +4,7 @@
 #define BICYCLE_CLI_TURN_SHOW_H
 
 #include "terminal/command.h"
+#include "terminal/outside.h"
 
 #include <bicycle/turn.h>
 
@@ -12,6 +13,7 @@ typedef struct turn_answer {
   const bike_model *model;
   const bike_turn_def *def;
   const bike_turns *found;
+  const term_limits *limits;
 } turn_answer;
 
 // One JSON document, or tables. False where memory is short.

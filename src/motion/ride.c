@@ -9,6 +9,7 @@
 #include "motion/ride_check.h"
 #include "motion/ride_creep.h"
 #include "motion/ride_event.h"
+#include "motion/ride_ground.h"
 #include "motion/ride_method.h"
 
 typedef struct ride {
@@ -210,8 +211,24 @@ static int enter_stretch(ride *r) {
   int code = emit(r, &view);
   if (code) return code;
   ride_indicators after = ride_indicate(r->def, &r->side, &r->now, &view);
+  ride_ground_look(r->out->ground, r->now.t, &view);
+  ride_ground_jump(r->out->ground, r->now.t, &after);
   pass_jump(r, &after);
   return BIKE_OK;
+}
+
+// What the ground had to do from `a` to where the ride is now. Where an event has ended it the
+// equations may have no answer: then up to the last look.
+static int pass_ground(ride *r, double a, const ride_indicators *at_a, const ride_indicators *then,
+                       const bike_snapshot *view) {
+  bike_snapshot last = *view;
+  ride_indicators end = *then;
+  if (r->over) {
+    if (ride_look(&last, &r->now, &r->flow)) return r->flow.fatal ? r->flow.error : BIKE_OK;
+    end = ride_indicate(r->def, &r->side, &r->now, &last);
+  }
+  ride_ground_look(r->out->ground, r->now.t, &last);
+  return ride_ground_pass(r->out->ground, a, at_a, r->now.t, &end, indicators_at, r);
 }
 
 // To the next place where the ride is looked at.
@@ -228,9 +245,13 @@ static int advance(ride *r) {
   int code = look_at(&view, &there, r, t);
   if (code) return code;
   ride_indicators then = ride_indicate(r->def, &r->side, &there, &view);
+  const ride_indicators before = r->happened;
+  double from = r->now.t;
   code = pass_events(r, t, &then);
+  if (code) return code;
+  if (!r->over) r->now = there;
+  code = pass_ground(r, from, &before, &then, &view);
   if (code || r->over) return code;
-  r->now = there;
   r->happened = then;
   if (r->now.t >= r->stretch_end) return enter_stretch(r);
   return emit(r, &view);
@@ -288,6 +309,7 @@ int bike_ride(bike_ride_result *out, const bike_model *model, const bike_ride_de
   r.method->free(r.integrator);
   if (!code) describe_end(&r);
   out->end_time = out->complete ? def->duration : r.now.t;
+  for (int i = 0; i < 2; i++) bike_ground_end(&out->ground[i], out->end_time);
   out->evaluations = r.flow.evaluations;
   return code;
 }

@@ -18,6 +18,7 @@ bike_ride_def bike_default_ride_def(void) {
       .rtol = 1e-13,
       .atol = 1e-13, // of states that are of the order of 1 rad, 1 m, 1 m/s
       .step = 1e-3,
+      .friction_limit = 1,                               // dry asphalt holds about that
       .lean_limit = 80 * (3.14159265358979323846 / 180), // lying flat, where 1/cos(lean) ends all
   };
 }
@@ -82,6 +83,7 @@ const char *bike_ride_broken_rule(const bike_ride_def *def) {
   if (wrong) return wrong;
   if (!(def->lean_limit > 0 && def->lean_limit <= 1.5707963267948966)) // pi/2
     return "lean_limit must lie in 0 to 90 deg";
+  if (!positive(def->friction_limit)) return "friction_limit must be positive";
   if (!breakpoints_rise(def)) return "breakpoints must be finite and rise";
   return def->on_sample ? NULL : "on_sample is missing";
 }

@@ -56,12 +56,14 @@ ride_indicators ride_indicate(const bike_ride_def *def, const ride_side *side, c
   i.g[BIKE_EVENT_LEAN_LIMIT] = def->lean_limit - fabs(at->y[RIDE_LEAN]);
   i.g[BIKE_EVENT_VALIDITY] = validity(side, now);
   i.g[BIKE_EVENT_STANDSTILL] = standstill(def->start.speed, at->y[RIDE_SPEED]);
+  i.g[RIDE_REAR_GRIP] = bike_grip(now->rear_force, def->friction_limit);
+  i.g[RIDE_FRONT_GRIP] = bike_grip(now->front_force, def->friction_limit);
   return i;
 }
 
 ride_indicators ride_nothing_happened(void) {
   ride_indicators i;
-  for (int k = 0; k < RIDE_EVENT_KINDS; k++) i.g[k] = 1;
+  for (int k = 0; k < RIDE_INDICATORS; k++) i.g[k] = 1;
   return i;
 }
 
@@ -81,22 +83,24 @@ static double chord(double a, double ga, double b, double gb, double width) {
 // 1e-12 s is a hundred times finer than anyone compares events; later in a ride the rounding of the
 // time itself is the limit. Chords in the Illinois manner (the end that stays counts half), every
 // third cut in the middle, so that the bracket shrinks whatever the function.
-int ride_event_time(double *time, bike_event_kind kind, double a, const ride_indicators *at_a,
-                    double b, const ride_indicators *at_b, ride_indicators_at *look, void *user) {
-  double ga = at_a->g[kind], gb = at_b->g[kind];
+int ride_event_time(double *time, int kind, double a, const ride_indicators *at_a, double b,
+                    const ride_indicators *at_b, ride_indicators_at *look, void *user) {
+  bool falls = at_a->g[kind] > 0;
+  double ga = fabs(at_a->g[kind]), gb = -fabs(at_b->g[kind]);
   double width = fmax(1e-12, 8 * DBL_EPSILON * fabs(b));
   for (int cut = 1; b - a > width; cut++) {
     double t = cut % 3 == 0 ? a + (b - a) / 2 : chord(a, ga, b, gb, width);
     ride_indicators here;
     int code = look(&here, t, user);
     if (code) return code;
-    if (here.g[kind] > 0) {
+    double g = fabs(here.g[kind]);
+    if ((here.g[kind] > 0) == falls) {
       a = t;
-      ga = here.g[kind];
+      ga = g;
       gb /= 2;
     } else {
       b = t;
-      gb = here.g[kind];
+      gb = -g;
       ga /= 2;
     }
   }

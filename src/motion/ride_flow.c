@@ -79,13 +79,6 @@ ride_point ride_start(const bike_state *state) {
   return p;
 }
 
-// Horizontal over normal force, with the normal force's sign: negative where the ground would have
-// to pull. Without any force nothing is asked of the ground: 0.
-static double friction(const double force[3]) {
-  double horizontal = hypot(force[0], force[1]);
-  return horizontal == 0 ? 0 : horizontal / force[2];
-}
-
 void ride_describe(bike_sample *sample, bike_sample_more *more, const ride_point *at,
                    const bike_snapshot *now) {
   const double *y = at->y;
@@ -104,8 +97,8 @@ void ride_describe(bike_sample *sample, bike_sample_more *more, const ride_point
                           .energy = now->kinetic + now->potential,
                           .rear_normal = now->rear_force[2],
                           .front_normal = now->front_force[2],
-                          .rear_friction = friction(now->rear_force),
-                          .front_friction = friction(now->front_force)};
+                          .rear_friction = bike_friction(now->rear_force),
+                          .front_friction = bike_friction(now->front_force)};
   more->work = y[RIDE_WORK];
   for (int i = 0; i < 3; i++) {
     more->rear_force[i] = now->rear_force[i];

@@ -2,6 +2,7 @@
 #include "motion/turn_solution.h"
 
 #include <bicycle/error.h>
+#include <bicycle/ground.h>
 #include <bicycle/state.h>
 #include <float.h>
 #include <math.h>
@@ -108,10 +109,6 @@ static int is_stationary(bool *out, const turn_bicycle *bicycle, const turn_plac
   return BIKE_OK;
 }
 
-static double friction(const double force[3]) {
-  return hypot(force[0], force[1]) / force[2];
-}
-
 // The circle has its radius at any speed, at zero too: there that of a speed of 1 m/s.
 static int circle(double *radius, const bike_model *model, bike_state state,
                   const bike_input *input, double yaw_rate) {
@@ -147,8 +144,8 @@ int turn_describe(bike_turn *out, const turn_bicycle *bicycle, const turn_place 
   if (!stationary) return BIKE_ERROR_NO_CONVERGENCE;
   turn.rear_normal = now.rear_force[2];
   turn.front_normal = now.front_force[2];
-  turn.rear_friction = friction(now.rear_force);
-  turn.front_friction = friction(now.front_force);
+  turn.rear_friction = bike_friction(now.rear_force);
+  turn.front_friction = bike_friction(now.front_force);
   code = circle(&turn.radius, model, state, &input, now.yaw_rate);
   if (!code) code = bike_eigenvalues_of(&turn.eigenvalues, linear.A);
   if (code) return code;

@@ -2,6 +2,7 @@
 #include "terminal/ride.h"
 
 #include <bicycle/error.h>
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -42,12 +43,15 @@ term_exit term_ride_begin(term_ride *out, const term_ride_options *options) {
   return TERM_DONE;
 }
 
-void term_ride_input(double time, bike_input *out, void *user) {
-  const term_ride *ride = user;
+static void input_at(bike_input *out, const term_ride *ride, double time) {
   if (ride->table)
     bike_input_table_at(time, out, ride->table);
   else
     *out = ride->options->constant;
+}
+
+void term_ride_input(double time, bike_input *out, void *user) {
+  input_at(out, user, time);
 }
 
 static bool should_stop(const term_ride *ride) {
@@ -91,6 +95,38 @@ static json_t *events_json(const term_ride_outcome *outcome) {
   return array;
 }
 
+// The largest offset of the rider at the rows of the input up to the end of the ride.
+static double largest_offset(const term_ride *ride, double end) {
+  size_t count = 0;
+  const double *times = ride->table ? bike_input_table_times(ride->table, &count) : NULL;
+  double largest = 0;
+  for (size_t i = 0; i <= count; i++) {
+    bike_input input = {0};
+    double time = i < count ? times[i] : end;
+    if (time < 0 || time > end) continue;
+    input_at(&input, ride, time);
+    largest = fmax(largest, fabs(input.rider_offset));
+  }
+  return largest;
+}
+
+static term_outside outside_of(const term_ride *ride, const term_ride_outcome *outcome) {
+  term_outside out = {0};
+  term_outside_ride(&out, "rear", false, &outcome->ground[0], &outcome->limits);
+  term_outside_ride(&out, "front", false, &outcome->ground[1], &outcome->limits);
+  term_outside_rider(&out, largest_offset(ride, outcome->end_time), &outcome->limits);
+  return out;
+}
+
+static json_t *friction_json(const term_ride_outcome *outcome) {
+  const bike_wheel_ground *rear = &outcome->ground[0], *front = &outcome->ground[1];
+  return json_pack("{s:o, s:{s:o, s:o}, s:{s:o, s:o}}", "limit",
+                   term_json_number(outcome->limits.friction), "rear", "largest",
+                   term_json_number(rear->friction), "time", term_json_number(rear->friction_time),
+                   "front", "largest", term_json_number(front->friction), "time",
+                   term_json_number(front->friction_time));
+}
+
 static bool print_json(const term_ride *ride, const term_ride_outcome *outcome) {
   const term_record *record = &ride->record;
   json_t *document =
@@ -101,10 +137,29 @@ static bool print_json(const term_ride *ride, const term_ride_outcome *outcome) 
                 term_record_end(record, outcome->end), "energy", "start",
                 term_json_number(record->start_energy), "work", term_json_number(record->work),
                 "balance", term_json_number(record->balance));
+  const term_outside outside = outside_of(ride, outcome);
+  json_object_set_new(document, "friction_asked", friction_json(outcome));
+  json_object_set_new(document, "outside_physics", term_outside_json(&outside));
   json_object_update(document, outcome->more);
   if (outcome->error) json_object_set_new(document, "error", json_string(outcome->error));
   if (record->columns) json_object_set(document, "samples", record->columns);
   return term_json_write(document, stdout);
+}
+
+// What the ride asked of the ground, and what of that none could give.
+static void tell_ground(const term_ride *ride, const term_ride_outcome *outcome) {
+  const bike_wheel_ground *rear = &outcome->ground[0], *front = &outcome->ground[1];
+  const term_outside outside = outside_of(ride, outcome);
+  char asked[2][32];
+  term_friction_text(asked[0], rear->friction);
+  term_friction_text(asked[1], front->friction);
+  term_message("largest friction asked: rear %s at %.6g s, front %s at %.6g s", asked[0],
+               rear->friction_time, asked[1], front->friction_time);
+  for (int i = 0; i < outside.count; i++) {
+    char text[TERM_OUTSIDE_SIZE];
+    term_outside_text(text, &outside.items[i]);
+    term_message("outside physics: %s", text);
+  }
 }
 
 // Events and a summary on stderr.
@@ -114,6 +169,7 @@ static void tell(const term_ride *ride, const term_ride_outcome *outcome) {
     term_message("%.9g s: %s", outcome->events[i].time, bike_event_string(outcome->events[i].kind));
   if (outcome->event_count > BIKE_MAX_EVENTS)
     term_message("and %d more events", outcome->event_count - BIKE_MAX_EVENTS);
+  tell_ground(ride, outcome);
   term_message("%ld rows to %.9g s, convention %s, energy balance %.1e%s", record->count,
                outcome->end_time, term_convention_name(record->convention), record->balance,
                outcome->note);

@@ -19,15 +19,17 @@ typedef struct term_ride {
 
 // How a ride ended, as every engine can tell it.
 typedef struct term_ride_outcome {
-  const char *bicycle;      //
-  double end_time;          // s
-  bool complete;            //   the whole duration was ridden
-  const bike_sample *end;   //   at end_time; NULL: the last row
-  int event_count;          //   may exceed BIKE_MAX_EVENTS
-  const bike_event *events; //   the first BIKE_MAX_EVENTS of them
-  const char *error;        //   why it failed, NULL: it did not
-  const char *note;         //   what the engine adds to the summary on stderr, "" for nothing
-  json_t *more;             //   what it adds to the JSON document; taken over
+  const char *bicycle;             //
+  double end_time;                 // s
+  bool complete;                   //   the whole duration was ridden
+  const bike_sample *end;          //   at end_time; NULL: the last row
+  int event_count;                 //   may exceed BIKE_MAX_EVENTS
+  const bike_event *events;        //   the first BIKE_MAX_EVENTS of them
+  const bike_wheel_ground *ground; // two: what it asked of the ground under rear and front wheel
+  term_limits limits;              //   those of the options, with the reach filled in
+  const char *error;               //   why it failed, NULL: it did not
+  const char *note; //   what the engine adds to the summary on stderr, "" for nothing
+  json_t *more;     //   what it adds to the JSON document; taken over
 } term_ride_outcome;
 
 // Reads the inputs over time and finds where rows go. A failure is reported.

@@ -84,7 +84,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   switch (key) {
   case ARGP_KEY_INIT:
     state->child_inputs[0] = &args->start;
-    state->child_inputs[1] = &args->show;
+    state->child_inputs[1] = &args->limits;
+    state->child_inputs[2] = &args->show;
     return 0;
   case KEY_TIME:
     args->duration = term_positive_of("--time", text);
@@ -110,7 +111,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
-static const struct argp_child children[] = {
-    {&term_start_argp, 0, NULL, 0}, {&term_show_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&term_start_argp, 0, NULL, 0},
+                                             {&term_limits_argp, 0, NULL, 0},
+                                             {&term_show_argp, 0, NULL, 0},
+                                             {0}};
 
 const struct argp term_ride_argp = {.options = options, .parser = parse, .children = children};

@@ -88,6 +88,12 @@ static void far_limit(bike_ride_def *d) {
 static void nan_limit(bike_ride_def *d) {
   d->lean_limit = NAN;
 }
+static void no_friction(bike_ride_def *d) {
+  d->friction_limit = 0;
+}
+static void nan_friction(bike_ride_def *d) {
+  d->friction_limit = NAN;
+}
 static void no_points(bike_ride_def *d) {
   d->breakpoint_count = 1;
 }
@@ -129,6 +135,7 @@ static const struct {
     {falling, BIKE_ERROR_ARGUMENT},          {twice, BIKE_ERROR_ARGUMENT},
     {far_point, BIKE_ERROR_ARGUMENT},        {nan_lean, BIKE_ERROR_NOT_FINITE},
     {infinite_speed, BIKE_ERROR_NOT_FINITE}, {nan_rate, BIKE_ERROR_NOT_FINITE},
+    {no_friction, BIKE_ERROR_ARGUMENT},      {nan_friction, BIKE_ERROR_ARGUMENT},
 };
 
 static void the_broken_rule_is_named(void **state) {
@@ -146,6 +153,7 @@ static void the_broken_rule_is_named(void **state) {
                {no_step, "step must be positive"},
                {odd_step, "must divide"},
                {far_limit, "lean_limit"},
+               {no_friction, "friction_limit"},
                {twice, "breakpoints"},
                {no_sink, "on_sample"}};
   for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {

@@ -253,6 +253,77 @@ static void time_of_an_event_depends_on_nothing_else(void **state) {
     }
 }
 
+// How long the rows of a ride show a wheel lifted, or without grip.
+static void count_rows(double out[2][2], const trace *t, double limit, double interval) {
+  for (size_t i = 0; i < t->count; i++)
+    for (int w = 0; w < 2; w++) {
+      const double *force = w ? t->more[i].front_force : t->more[i].rear_force;
+      out[w][0] += interval * !(force[2] > 0);
+      out[w][1] += interval * !(hypot(force[0], force[1]) < limit * force[2]);
+    }
+}
+
+static void assert_ground_is(const bike_ride_result *r, double rows[2][2], double tolerance) {
+  for (int w = 0; w < 2; w++) {
+    const bike_wheel_ground *g = &r->ground[w];
+    assert_near(g->lifted.duration, rows[w][0], tolerance);
+    assert_near(g->no_grip.duration, rows[w][1], tolerance);
+    if (g->lifted.count > 0) assert_true(isinf(g->friction) && g->friction_time == g->lifted.first);
+    if (g->no_grip.count > 0 && g->no_grip.first > 0)
+      assert_true(g->friction > 1 && g->friction_time >= g->no_grip.first);
+  }
+}
+
+// Wheels that lift and come down, that slide and hold again: the intervals are those of rows a
+// ten times closer than steps, and do not depend on what rows were asked for.
+static void ground_is_watched_between_rows(void **state) {
+  (void)state;
+  bike_model bike = roadster(), other = benchmark();
+  const struct {
+    const bike_model *bike;
+    bike_state start;
+    double duration;
+    int returns; // at least one wheel comes down, or holds again
+  } cases[] = {
+      {&bike, TOPPLING, 1.24, 0},
+      {&bike,
+       {.lean = 1.15, .steer = 0.816, .lean_rate = 3, .steer_rate = 0.73, .speed = -1.3},
+       0.09,
+       1},
+      {&other,
+       {.lean = 0.5, .steer = -0.4, .lean_rate = -2, .steer_rate = -1, .speed = 2},
+       0.87,
+       1},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    trace t = {0};
+    double interval = cases[i].duration / 1000;
+    bike_ride_def def = ride_def(&t, cases[i].start, cases[i].duration, interval);
+    bike_ride_result fine, coarse;
+    assert_int_equal(ride_into(&fine, cases[i].bike, &def), 0);
+    double rows[2][2] = {{0}};
+    count_rows(rows, &t, 1, interval);
+    int spells = 0, returned = 0;
+    for (int w = 0; w < 2; w++) {
+      spells += fine.ground[w].lifted.count + fine.ground[w].no_grip.count;
+      const bike_spells *s = &fine.ground[w].lifted;
+      returned += s->count > 0 && s->first + s->duration < fine.end_time - interval;
+    }
+    assert_true(spells > 0);
+    if (cases[i].returns) assert_true(returned > 0);
+    // each end of an interval lies within an interval between rows
+    assert_ground_is(&fine, rows, 2 * interval * (spells + 1));
+    def.sample = def.duration;
+    assert_int_equal(ride_into(&coarse, cases[i].bike, &def), 0);
+    assert_ground_is(&coarse, rows, 2 * interval * (spells + 1));
+    for (int w = 0; w < 2; w++) {
+      assert_int_equal(coarse.ground[w].lifted.count, fine.ground[w].lifted.count);
+      assert_near(coarse.ground[w].no_grip.first, fine.ground[w].no_grip.first, 1e-9);
+    }
+    trace_free(&t);
+  }
+}
+
 static void events_have_names(void **state) {
   (void)state;
   for (int a = 0; a <= BIKE_EVENT_STANDSTILL; a++)
@@ -272,6 +343,7 @@ int main(void) {
       cmocka_unit_test(standstill_ends_the_ride),
       cmocka_unit_test(start_at_rest_is_a_ride),
       cmocka_unit_test(time_of_an_event_depends_on_nothing_else),
+      cmocka_unit_test(ground_is_watched_between_rows),
       cmocka_unit_test(events_have_names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,6 +17,7 @@ static const run_wrong commands[] = {
     {DISC "--speed 2", "disc.xml: --speed and the like: only for a bicycle"},
     {DISC "--steer-torque 1", "disc.xml: --steer-torque: only for a bicycle"},
     {DISC "--lean-limit 1", "disc.xml: --lean-limit: only for a bicycle"},
+    {DISC "--reach 1", "disc.xml: --reach: only for a bicycle"},
     {DISC "--convention sae", "disc.xml: --convention: only for a bicycle"},
     {DISC "--root free", "--root: disc.xml has its own"},
     {DISC "--timestep 0.003", "disc.xml: the sample interval"},
@@ -119,7 +120,7 @@ static void rows_are_named_after_joints(void **state) {
       "sensor:rolling:rim:lift\n";
   assert_memory_equal(result.out, header, strlen(header));
   assert_non_null(strstr(result.err, "disc.xml: not a bicycle: there is no body 'rear_frame'"));
-  assert_non_null(strstr(result.err, "rim: never lifts; slip "));
+  assert_non_null(strstr(result.err, "rim: never lifts; asks friction "));
   assert_non_null(strstr(result.err, "3 rows to 1 s, "));
   assert_non_null(strstr(result.err, " times real time"));
   run_free(&result);
@@ -153,6 +154,12 @@ static void other_joints_have_their_columns(void **state) {
   const json_t *lifts = json_object_get(wheel, "lifts");
   assert_int_equal(json_array_size(lifts), 1);
   assert_near(json_number_value(json_array_get(lifts, 0)), asin(49.05 / 60) / 20, 1e-4);
+  // the ground would have to pull with what is missing of g: at the rows, the strongest
+  const json_t *pulled = json_array_get(json_object_get(pogo, "outside_physics"), 0);
+  assert_string_equal(json_string_value(json_object_get(pulled, "disc")), "wheel");
+  assert_string_equal(json_string_value(json_object_get(pulled, "kind")), "pulled");
+  assert_near(run_number(pulled, "first"), asin(49.05 / 60) / 20, 1e-4);
+  assert_true(run_number(pulled, "value") > 0);
   json_decref(pogo);
 }
 

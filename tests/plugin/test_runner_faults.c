@@ -131,8 +131,8 @@ static void test_bad_definitions(void **state) {
   runner_ride_def good = runner_default_ride_def();
   good.on_sample = ignore_sample;
   good.duration = 0.1;
-  runner_ride_def bad[8];
-  for (int i = 0; i < 8; i++) bad[i] = good;
+  runner_ride_def bad[10];
+  for (int i = 0; i < 10; i++) bad[i] = good;
   bad[0].on_sample = NULL;
   bad[1].duration = NAN;
   bad[2].duration = -1;
@@ -141,10 +141,12 @@ static void test_bad_definitions(void **state) {
   bad[5].sample = 0;
   bad[6].lean_limit = 2;
   bad[7].duration = INFINITY;
+  bad[8].friction_limit = -1;
+  bad[9].friction_limit = NAN;
   runner_ride_result result;
   mjcf_error error;
   assert_int_equal(runner_ride(&result, r, &good, &error), RUNNER_OK);
-  for (int i = 0; i < 8; i++) {
+  for (int i = 0; i < 10; i++) {
     error.text[0] = '\0';
     assert_int_equal(runner_ride(&result, r, &bad[i], &error), RUNNER_ARGUMENT);
     assert_true(strlen(error.text) > 0);

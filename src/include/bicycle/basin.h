@@ -4,7 +4,7 @@
 //
 // Section 4 of Franke, Suhr, Riess (1990) speaks of "a very large basin of attraction". All starts
 // have zero rates and the energy of riding straight at one speed, so that this is the motion to
-// which they can come back.
+// which they can come back. Lifts of the wheels are watched, the friction that is asked is not.
 #ifndef BICYCLE_BASIN_H
 #define BICYCLE_BASIN_H
 

@@ -3,6 +3,7 @@
 #ifndef BICYCLE_RIDE_H
 #define BICYCLE_RIDE_H
 
+#include <bicycle/ground.h>
 #include <bicycle/state.h>
 #include <stddef.h>
 
@@ -46,8 +47,7 @@ typedef struct bike_sample {
   double rear_angle, front_angle;       // hinge angles, growing when rolling forward
   double energy;                        // kinetic + potential
   double rear_normal, front_normal;     // N
-  double rear_friction, front_friction; // horizontal / normal force; negative where the wheel is
-                                        // off the ground, 0 without any horizontal force
+  double rear_friction, front_friction; // bike_friction of the two forces
 } bike_sample;
 
 // What is not in a CSV row but judged by the comparator.
@@ -68,14 +68,15 @@ typedef int bike_sample_function(const bike_sample *sample, const bike_sample_mo
                                  void *user);
 
 typedef struct bike_ride_def {
-  bike_state start;   //
-  double duration;    // s      > 0; rows at k * sample, k = 0 .. round-down(duration/sample)
-  double sample;      // s      > 0, duration/1e9 <= sample <= duration
-  bike_method method; //
-  double rtol, atol;  //        adaptive methods, per step: rtol >= 4 units of rounding, atol > 0
-  double step;        // s      fixed step of BIKE_METHOD_RK4; must divide `sample`
-  double lean_limit;  // rad    0 < limit <= pi/2
-  bool stop_at_lift;  //        a lift event ends the ride
+  bike_state start;      //
+  double duration;       // s      > 0; rows at k * sample, k = 0 .. round-down(duration/sample)
+  double sample;         // s      > 0, duration/1e9 <= sample <= duration
+  bike_method method;    //
+  double rtol, atol;     //        adaptive methods, per step: rtol >= 4 units of rounding, atol > 0
+  double step;           // s      fixed step of BIKE_METHOD_RK4; must divide `sample`
+  double lean_limit;     // rad    0 < limit <= pi/2
+  bool stop_at_lift;     //        a lift event ends the ride
+  double friction_limit; //     > 0: coefficient beyond which a wheel would slide; the ride goes on
   bike_input_function *input;      // NULL: no input
   const double *breakpoints;       // s  rising times at which the input is not smooth; may be NULL.
                                    //    Those outside the ride mean nothing
@@ -93,12 +94,14 @@ typedef struct bike_ride_result {
                    //     and after an error: the last row
   int event_count; //     further events than BIKE_MAX_EVENTS are counted, not kept
   bike_event events[BIKE_MAX_EVENTS];
-  long evaluations; //     right-hand sides
-  long steps;       //     accepted steps
+  bike_wheel_ground ground[2]; //  of the rear and the front wheel, looked at where events are;
+                               //  intervals are located as events are
+  long evaluations;            //     right-hand sides
+  long steps;                  //     accepted steps
 } bike_ride_result;
 
 // Default definition; fill in start, duration, sample and on_sample. RK8 at 1e-13 (energy drifts by
-// 1e-15 a second, traces err by 1e-14), step 1 ms, lean limit 80 degrees.
+// 1e-15 a second, traces err by 1e-14), step 1 ms, lean limit 80 degrees, friction limit 1.
 BIKE_API bike_ride_def bike_default_ride_def(void);
 
 // The first rule above that a definition breaks, in words: "rtol must be ..."; NULL: none. Of the
