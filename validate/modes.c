@@ -18,7 +18,7 @@ term_exit modes_at(bike_eigenvalues *out, const engine *e, void *instance, doubl
 }
 
 static double complex value_of(const bike_eigenvalues *e, int i) {
-  return CMPLX(e->re[i], e->im[i]);
+  return e->re[i] + I * e->im[i];
 }
 
 // The best over all matchings of a[first..3] with those of b that `used` leaves.

@@ -11,12 +11,21 @@ const char *instruction_set_string(instruction_set set) {
   return names[set];
 }
 
-instruction_set instruction_set_best(void) {
-#ifdef BICYCLE_X86_64_LEVELS
-  if (__builtin_cpu_supports("x86-64-v4")) return INSTRUCTIONS_V4;
-  if (__builtin_cpu_supports("x86-64-v3")) return INSTRUCTIONS_V3;
+#define HAS(feature) (__builtin_cpu_supports(feature) != 0)
+#ifndef BICYCLE_X86_64_LEVELS
+#define HAS_V3 0
+#define HAS_V4 0
+#elif defined __clang__ // clang 14 knows features, not levels: those that came last to each
+#define HAS_V3 (HAS("avx2") && HAS("bmi") && HAS("bmi2") && HAS("fma"))
+#define HAS_V4                                                                                     \
+  (HAS("avx512f") && HAS("avx512bw") && HAS("avx512cd") && HAS("avx512dq") && HAS("avx512vl"))
+#else
+#define HAS_V3 HAS("x86-64-v3")
+#define HAS_V4 HAS("x86-64-v4")
 #endif
-  return INSTRUCTIONS_BASELINE;
+
+instruction_set instruction_set_best(void) {
+  return HAS_V4 ? INSTRUCTIONS_V4 : HAS_V3 ? INSTRUCTIONS_V3 : INSTRUCTIONS_BASELINE;
 }
 
 static instruction_set decided(void) {

@@ -11,6 +11,10 @@
 #include <sleef.h>
 #endif
 
+#ifndef __has_feature // clang's way to ask what GCC says by __SANITIZE_ADDRESS__
+#define __has_feature(feature) 0
+#endif
+
 #ifndef LANES
 #if defined __AVX512F__
 #define LANES 8
@@ -27,7 +31,7 @@ typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))))
 
 // Inlined always: a call would pass vectors through memory, and keep what is constant from being
 // seen. Sanitizers want their stack in small pieces.
-#ifdef __SANITIZE_ADDRESS__
+#if defined __SANITIZE_ADDRESS__ || __has_feature(address_sanitizer)
 #define LANE_INLINE static inline
 #else
 #define LANE_INLINE static inline __attribute__((always_inline))

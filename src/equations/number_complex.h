@@ -7,6 +7,10 @@
 #include <complex.h>
 #include <math.h>
 
+#ifndef CMPLX // glibc defines it for GCC alone
+#define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
+#endif
+
 typedef double complex real;
 
 static inline real real_of(double x) {
