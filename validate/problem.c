@@ -2,6 +2,7 @@
 #include "problem.h"
 
 #include "files/message.h"
+#include "files/text.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@ term_exit problem_set(problem *p, term_exit code, const char *format, ...) {
   va_start(arguments, format);
   bike_message_fit(said.text, sizeof said.text, format, arguments);
   va_end(arguments);
-  memcpy(p->text, said.text, strlen(said.text) + 1);
+  bike_text_name(p->text, sizeof p->text, said.text, strlen(said.text)); // names hold anything
   return code;
 }
 

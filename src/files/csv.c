@@ -118,8 +118,7 @@ static int read_name(bike_csv_reader *r, span cell, bike_file_error *error) {
   if (length == 0) return fail(r, error, NULL, "a column has no name");
   if (length >= BIKE_CSV_NAME_SIZE) return fail(r, error, NULL, "a column's name is too long");
   char *name = h->name[h->columns];
-  memcpy(name, cell.begin, length);
-  name[length] = '\0';
+  bike_text_name(name, BIKE_CSV_NAME_SIZE, cell.begin, length); // without tabs, returns
   if (bike_csv_column(h, name) >= 0) return fail(r, error, name, "the column is given twice");
   ++h->columns;
   return BIKE_OK;

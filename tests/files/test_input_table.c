@@ -32,6 +32,7 @@ static void wrong_files(void **state) {
       {"time\n0\n10\n", BIKE_ERROR_SYNTAX, ": needs a column steer_torque"},
       {"time,torque\n0,1\n10,1\n", BIKE_ERROR_SYNTAX, ": torque: unknown column"},
       {"time,time\n0,1\n", BIKE_ERROR_SYNTAX, ":1: time: the column is given twice"},
+      {"time,a\tb\rc\n0,1\n", BIKE_ERROR_SYNTAX, ": a?b?c: unknown column"},
       {"time,\n0,1\n", BIKE_ERROR_SYNTAX, ":1: a column has no name"},
       {"time,steer_torque\n0,1\n10\n", BIKE_ERROR_SYNTAX,
        ":3: steer_torque: the number is missing"},

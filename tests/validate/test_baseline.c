@@ -456,6 +456,18 @@ static void test_damaged_texts(void **state) {
   free(text);
 }
 
+// Names in a saved report are anything; a message stays one line that a terminal can show.
+static void test_odd_names(void **state) {
+  (void)state;
+  problem p = {""};
+  json_t *now = json_pack("{s:[{s:s}]}", "scenarios", "name", "a\033[2J\nb\xc3\xa9"),
+         *before = json_pack("{s:[]}", "scenarios");
+  assert_int_equal(baseline_match(now, before, &p), TERM_BASELINE);
+  assert_string_equal(p.text, "the baseline has no scenario 'a?[2J?b\xc3\xa9'");
+  json_decref(now);
+  json_decref(before);
+}
+
 static void test_wrong_files(void **state) {
   (void)state;
   free(support_write(support_home, "list.json", "[1, 2]"));
@@ -500,6 +512,7 @@ int main(void) {
       cmocka_unit_test(test_timings_never_count),
       cmocka_unit_test(test_misfits),
       cmocka_unit_test(test_many_gates),
+      cmocka_unit_test(test_odd_names),
       cmocka_unit_test_setup_teardown(test_bless_and_compare, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_worse_fails, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_missing_scenario, support_enter, support_leave),
