@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char *name_or_number(char out[64], const char *name, int number) {
+const char *import_name(char out[64], const char *name, int number) {
   if (*name)
     snprintf(out, 64, "'%.50s'", name);
   else
@@ -17,11 +17,11 @@ static const char *name_or_number(char out[64], const char *name, int number) {
 }
 
 const char *import_joint_name(char out[64], const mjModel *m, int joint) {
-  return name_or_number(out, m->names + m->name_jntadr[joint], joint);
+  return import_name(out, m->names + m->name_jntadr[joint], joint);
 }
 
 const char *import_body_name(char out[64], const mjModel *m, int body) {
-  return name_or_number(out, m->names + m->name_bodyadr[body], body);
+  return import_name(out, m->names + m->name_bodyadr[body], body);
 }
 
 const double *import_axis(const import_view *v, int joint) {
@@ -51,43 +51,13 @@ static void kinematics(void *argument) {
   mj_kinematics(v->m, v->d);
 }
 
-static bool check_gravity(const mjModel *m, mjcf_error *error) {
-  const double *g = m->opt.gravity;
-  if (g[2] < 0 && hypot(g[0], g[1]) <= IMPORT_TOLERANCE * fabs(g[2])) return true;
-  return mjcf_fail(error,
-                   "not a bicycle: gravity (%g, %g, %g) must point along -z, to the ground z = 0",
-                   g[0], g[1], g[2]);
-}
-
-// What the analytic bicycle has no place for.
-static bool check_extras(const import_view *v, mjcf_error *error) {
-  const mjModel *m = v->m;
-  char name[64];
-  if (m->neq > 0)
-    return mjcf_fail(error, "not a bicycle: it has %d equality constraint%s", m->neq,
-                     m->neq == 1 ? "" : "s");
-  for (int j = 0; j < m->njnt; j++) {
-    int dof = m->jnt_dofadr[j];
-    const char *what = m->jnt_stiffness[j] != 0                        ? "stiffness"
-                       : m->dof_armature[dof] != 0                     ? "armature"
-                       : m->dof_frictionloss[dof] != 0                 ? "frictionloss"
-                       : m->dof_damping[dof] != 0 && j != v->map.steer ? "damping"
-                                                                       : NULL;
-    if (what)
-      return mjcf_fail(error,
-                       "not a bicycle of this model: joint %s has %s; only the steer may "
-                       "have damping",
-                       import_joint_name(name, m, j), what);
-  }
-  return true;
-}
-
 static bool find_all(bike_bicycle *out, import_view *v, mjcf_error *error) {
   guard_report report;
   assign_assemblies(v);
   guard_call(&report, kinematics, v);
   if (report.failed) return mjcf_fail(error, "%s", report.error);
-  return check_gravity(v->m, error) && import_find_joints(v, error) && check_extras(v, error) &&
+  return import_find_joints(v, error) &&
+         import_check_physics(v->m, v->map.steer, v->map.spin, error) &&
          import_find_wheels(v, error) && import_find_geometry(v, error) &&
          import_lump(out, v, error);
 }

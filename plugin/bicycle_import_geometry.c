@@ -19,6 +19,9 @@ static void swap_wheels(import_map *map) {
     map->half[i] = old.half[1 - i];
     map->wheel[i] = old.wheel[1 - i];
     map->radius[i] = old.radius[1 - i];
+    map->source[i] = old.source[1 - i];
+    map->geom[i] = old.geom[1 - i];
+    map->clearance[i] = old.clearance[1 - i];
     mju_copy3(map->hub[i], old.hub[1 - i]);
   }
 }
@@ -102,6 +105,7 @@ bool import_find_geometry(import_view *v, mjcf_error *error) {
   int code = bike_upright_position(&v->upright, &v->geometry);
   if (code != BIKE_OK) return mjcf_fail(error, "not a bicycle: %s", bike_error_string(code));
   find_upright_axes(&p, v->upright.tilt);
+  mju_copy3(v->map.travel, p.forward);
   const double *frame = v->d->xmat + 9 * v->map.half[IMPORT_REAR];
   mju_rotVecMatT(v->map.forward, p.forward, frame);
   mju_rotVecMatT(v->map.left, p.left, frame);

@@ -27,13 +27,17 @@ bool import_find_geometry(import_view *v,
                           mjcf_error *error); // plane, axes, the five lengths, signs
 bool import_lump(bike_bicycle *out, const import_view *v, mjcf_error *error);
 
-// A joint's or body's name, or "number 3".
-const char *import_joint_name(char out[64], const mjModel *m, int joint);
-const char *import_body_name(char out[64], const mjModel *m, int body);
-
 // World axes at qpos0 of a joint, and a point of it.
 const double *import_axis(const import_view *v, int joint);
 const double *import_anchor(const import_view *v, int joint);
+
+// Mass, centre (world, m) and inertia tensor about it (world axes, row-major) of an assembly.
+double import_mass(double centre[3], double tensor[9], const import_view *v, int assembly);
+
+// Whether a radius that no marker gives can be that of the wheel's tyre, from the wheel's shape and
+// inertia; and, of both wheels, from the height of their hubs.
+bool import_check_tyre(const import_view *v, int wheel, mjcf_error *error);
+bool import_check_heights(const import_view *v, mjcf_error *error);
 
 // Hub of a wheel in the world at qpos0.
 void import_hub(double out[3], const import_view *v, int wheel);

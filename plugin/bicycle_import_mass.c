@@ -31,8 +31,7 @@ static void add_steiner(double tensor[9], double mass, const double r[3]) {
       tensor[3 * i + j] += mass * ((i == j ? mju_dot3(r, r) : 0) - r[i] * r[j]);
 }
 
-// Mass, centre (world) and tensor about it (world) of an assembly.
-static double lump(double centre[3], double tensor[9], const import_view *v, int assembly) {
+double import_mass(double centre[3], double tensor[9], const import_view *v, int assembly) {
   double mass = 0, one[9], arm[3];
   mju_zero3(centre);
   mju_zero(tensor, 9);
@@ -94,12 +93,15 @@ static bool add_part(bike_bicycle *out, const import_view *v, const axes *a, bik
   bool is_wheel = assembly == BIKE_REAR_WHEEL || assembly == BIKE_FRONT_WHEEL;
   int wheel = front ? IMPORT_FRONT : IMPORT_REAR;
   double centre[3], tensor[9];
-  double mass = lump(centre, tensor, v, is_wheel ? v->map.wheel[wheel] : v->map.half[wheel]);
+  double mass = import_mass(centre, tensor, v, is_wheel ? v->map.wheel[wheel] : v->map.half[wheel]);
   if (!(mass > no_mass * v->m->body_subtreemass[0]) && !is_wheel) return true;
   bike_part *part = &out->parts[out->part_count++];
   *part = (bike_part){.assembly = assembly, .mass = mass};
   snprintf(part->name, sizeof part->name, "%s", part_names[assembly]);
   express(part, a, centre, tensor);
+  if (!(part->position[2] >= 0))
+    return mjcf_fail(error, "not a bicycle: the mass centre of %s is %.3g m below the ground",
+                     part->name, -part->position[2]);
   return !is_wheel || make_wheel(part, v, wheel, error);
 }
 

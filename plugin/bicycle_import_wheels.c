@@ -8,13 +8,15 @@
 // What is known of a wheel: its centre in the world and its radius; 0: nothing.
 typedef struct shape {
   double centre[3], radius;
+  import_source source;
+  int geom;
 } shape;
 
 // The marker's radius and centre (plugin/rolling.h); with contacts instead our models have the
 // marker under another name.
 static shape marked(const import_view *v, int body) {
   const mjModel *m = v->m;
-  shape s = {{0}, 0};
+  shape s = {.source = IMPORT_MARKER, .geom = -1};
   int tuple = mj_name2id(m, mjOBJ_TUPLE, "rolling_discs");
   if (tuple < 0) tuple = mj_name2id(m, mjOBJ_TUPLE, "contact_discs");
   for (int i = 0; tuple >= 0 && i < m->tuple_size[tuple]; i++) {
@@ -58,7 +60,7 @@ static double geom_radius(const import_view *v, int geom, const double axle[3]) 
 // The largest round geom; one that touches things before one that is only looked at.
 static shape shaped(const import_view *v, int wheel) {
   const mjModel *m = v->m;
-  shape best = {{0}, 0};
+  shape best = {.source = IMPORT_GEOM, .geom = -1};
   bool touches = false;
   for (int g = 0; g < m->ngeom; g++) {
     if (v->assembly[m->geom_bodyid[g]] != v->map.wheel[wheel]) continue;
@@ -67,22 +69,11 @@ static shape shaped(const import_view *v, int wheel) {
     if (radius == 0 || (touches && !can_touch)) continue;
     if (radius <= best.radius && touches == can_touch) continue;
     best.radius = radius;
+    best.geom = g;
     mju_copy3(best.centre, v->d->geom_xpos + 3 * g);
     touches = can_touch;
   }
   return best;
-}
-
-// Mass centre of what turns with the wheel.
-static void mass_centre(double out[3], const import_view *v, int body) {
-  double mass = 0;
-  mju_zero3(out);
-  for (int b = 1; b < v->m->nbody; b++) {
-    if (v->assembly[b] != body) continue;
-    mass += v->m->body_mass[b];
-    mju_addToScl3(out, v->d->xipos + 3 * b, v->m->body_mass[b]);
-  }
-  if (mass > 0) mju_scl3(out, out, 1 / mass);
 }
 
 // Distance of a point from the axle, which passes through the hinge's anchor.
@@ -94,20 +85,39 @@ static double off_axle(const import_view *v, int wheel, const double point[3]) {
   return mju_norm3(arm);
 }
 
+// Height of a hub over the radius, of a wheel that stands on the ground: 1 of an upright one.
+static double upright_share(const import_view *v, int wheel) {
+  const double *n = import_axis(v, v->map.spin[wheel]);
+  return hypot(n[0], n[1]);
+}
+
+// Of the plane that the model has for it; the wheels' discs roll on z = 0, which is as good.
+static double ground_height(const import_view *v) {
+  for (int g = 0; g < v->m->ngeom; g++)
+    if (v->m->geom_type[g] == mjGEOM_PLANE && v->assembly[v->m->geom_bodyid[g]] == 0 &&
+        v->d->geom_xmat[9 * g + 8] >= 1 - IMPORT_TOLERANCE)
+      return v->d->geom_xpos[3 * g + 2];
+  return 0;
+}
+
 static bool find_wheel(import_view *v, int wheel, mjcf_error *error) {
   int body = v->map.wheel[wheel];
   char name[64];
-  double centre[3];
-  mass_centre(centre, v, body);
+  double centre[3], tensor[9];
+  import_mass(centre, tensor, v, body);
   if (!(off_axle(v, wheel, centre) <= IMPORT_TOLERANCE))
     return mjcf_fail(error, "not a bicycle: the mass centre of wheel %s is %.3g m off its axle",
                      import_body_name(name, v->m, body), off_axle(v, wheel, centre));
   shape s = marked(v, body);
+  if (s.radius == 0 && mj_name2id(v->m, mjOBJ_TUPLE, "rolling_discs") >= 0)
+    return mjcf_fail(error, "not a bicycle: the marker rolling_discs does not name wheel %s",
+                     import_body_name(name, v->m, body));
   if (s.radius == 0) s = shaped(v, wheel);
   // A wheel of which nothing is said stands on the ground at qpos 0, its mass in its plane.
   if (s.radius == 0) {
     mju_copy3(s.centre, centre);
-    s.radius = centre[2];
+    s.radius = (centre[2] - ground_height(v)) / upright_share(v, wheel);
+    s.source = IMPORT_HEIGHT;
   }
   if (!(s.radius > 0))
     return mjcf_fail(
@@ -122,9 +132,12 @@ static bool find_wheel(import_view *v, int wheel, mjcf_error *error) {
   mju_sub3(arm, s.centre, v->d->xpos + 3 * body);
   mju_rotVecMatT(v->map.hub[wheel], arm, v->d->xmat + 9 * body);
   v->map.radius[wheel] = s.radius;
-  return true;
+  v->map.source[wheel] = s.source;
+  v->map.geom[wheel] = s.geom;
+  v->map.clearance[wheel] = s.centre[2] - ground_height(v) - s.radius * upright_share(v, wheel);
+  return s.source == IMPORT_MARKER || import_check_tyre(v, wheel, error);
 }
 
 bool import_find_wheels(import_view *v, mjcf_error *error) {
-  return find_wheel(v, 0, error) && find_wheel(v, 1, error);
+  return find_wheel(v, 0, error) && find_wheel(v, 1, error) && import_check_heights(v, error);
 }

@@ -7,6 +7,7 @@
 
 #include <bicycle/error.h>
 #include <bicycle/output.h>
+#include <math.h>
 
 static const char example[] = "Example: bicycle mujoco import mine.xml -o mine.yml\n"
                               "         bicycle ride mine.yml --speed 5 --time 10 --sample 0.01\n";
@@ -14,7 +15,13 @@ static const char example[] = "Example: bicycle mujoco import mine.xml -o mine.y
 static const char documentation[] =
     "Reads the bicycle out of a MuJoCo model (.xml or .mjb): two wheels on hinges, a steering "
     "hinge between what they are on, and a root with six freedoms, whatever their names and axes. "
-    "Writes it as a bicycle file, rigid parts lumped. The model must be unsteered at qpos 0.";
+    "Writes it as a bicycle file, rigid parts lumped, and says on stderr how it was understood: "
+    "the "
+    "direction of travel, the steer, where the radii are from. The model must be unsteered at qpos "
+    "0. "
+    "What acts on it and is not in the equations (springs, servos, wind, flags) is refused by "
+    "name; "
+    "a tuple 'rolling_discs' of the model says which radii are meant.";
 
 typedef struct arguments {
   const char *model, *output; // output NULL: the standard output
@@ -101,15 +108,61 @@ static term_exit write_bicycle(const bike_bicycle *bicycle, const char *path) {
   return code == BIKE_OK ? TERM_DONE : term_fail(TERM_USAGE, "%s", error.text);
 }
 
+//---------------------------------- how it was understood -----------------------------------------
+
+// The heading at qpos 0, where the bicycle may be pitched.
+static void tell_travel(const import_map *map) {
+  double x = map->travel[0], y = map->travel[1], length = hypot(x, y);
+  if (fabs(x) > (1 - 1e-9) * length || fabs(y) > (1 - 1e-9) * length)
+    term_message("travels along %s",
+                 fabs(x) > fabs(y) ? (x > 0 ? "+x" : "-x") : (y > 0 ? "+y" : "-y"));
+  else
+    term_message("travels along (%.4g, %.4g, 0)", x / length, y / length);
+}
+
+static void tell_wheel(const mjModel *m, const import_map *map, int wheel) {
+  static const char *const names[] = {"rear", "front"};
+  char body[64], geom[64], place[64] = "";
+  double clearance = map->clearance[wheel];
+  bool from_geom = map->source[wheel] == IMPORT_GEOM;
+  const char *source = map->source[wheel] == IMPORT_MARKER ? "the marker rolling_discs"
+                       : from_geom                         ? "geom "
+                                   : "the height of its hub above the ground";
+  if (from_geom) import_name(geom, m->names + m->name_geomadr[map->geom[wheel]], map->geom[wheel]);
+  if (fabs(clearance) > 1e-6)
+    snprintf(place, sizeof place, "; at qpos 0 it is %.4g m %s the ground", fabs(clearance),
+             clearance > 0 ? "above" : "below");
+  term_message("%s wheel %s: radius %.6g m, from %s%s%s", names[wheel],
+               import_body_name(body, m, map->wheel[wheel]), map->radius[wheel], source,
+               from_geom ? geom : "", place);
+}
+
+static void tell(const mjModel *m, const import_map *map, const bike_bicycle *bicycle) {
+  bike_upright upright;
+  char stops[400], name[64];
+  tell_travel(map);
+  term_message("steer: joint %s, positive to the %s", import_joint_name(name, m, map->steer),
+               map->steer_sign > 0 ? "left" : "right");
+  for (int i = 0; i < IMPORT_WHEELS; i++) tell_wheel(m, map, i);
+  if (bike_upright_position(&upright, &bicycle->geometry) == BIKE_OK)
+    term_message("wheelbase %.6g m, trail %.6g m, head angle %.6g deg", upright.wheelbase,
+                 upright.trail, 90 - upright.tilt * 180 / M_PI);
+  if (import_stops(stops, sizeof stops, m))
+    term_message("stops, which the bicycle file does not have: %s", stops);
+}
+
 int cmd_import(int argc, char **argv) {
   const struct argp argp = {options, parse, "MODEL", documentation, NULL, NULL, NULL};
   arguments args = {0};
   bike_bicycle bicycle;
   mjcf_error error = {""};
   term_parse(&argp, example, argc, argv, &args);
+  import_map map;
   mjModel *model = mjcf_load(args.model, &error);
-  bool found = model && import_bicycle(&bicycle, NULL, model, &error);
+  bool found = model && import_bicycle(&bicycle, &map, model, &error);
+  term_exit code = found ? write_bicycle(&bicycle, args.output)
+                         : term_fail(TERM_USAGE, "%s: %s", args.model, error.text);
+  if (code == TERM_DONE) tell(model, &map, &bicycle);
   if (model) mj_deleteModel(model);
-  if (!found) return term_fail(TERM_USAGE, "%s: %s", args.model, error.text);
-  return write_bicycle(&bicycle, args.output);
+  return code;
 }

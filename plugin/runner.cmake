@@ -6,6 +6,8 @@ add_library(mujoco_runner STATIC
   bicycle_import_joints.c
   bicycle_import_load.c
   bicycle_import_mass.c
+  bicycle_import_physics.c
+  bicycle_import_tyre.c
   bicycle_import_wheels.c
   bicycle_mjcf.c
   bicycle_mjcf_apart.c

@@ -102,6 +102,10 @@ typedef struct runner_instant {
 runner_status runner_evaluate(runner_instant *out, runner *r, const bike_state *state,
                               const bike_input *input, mjcf_error *error);
 
+// Whether a stop acted at the newest instant: a limited joint or tendon at an end of its range,
+// where the bicycle is no longer that of the equations.
+bool runner_at_stop(const runner *r);
+
 // MuJoCo's mass matrix for the speeds (lean_rate, steer_rate, speed) of the rolling bicycle:
 // V^T M V, the columns of V being the velocities (qvel) at one unit of each. Row-major, SI, as
 // bike_mass_matrix; of the state only lean and steer matter. Does not touch a ride's state.

@@ -139,7 +139,9 @@ bool runner_find_map(runner_map *map, const mjModel *m, mjcf_error *error) {
     return false;
   if (!(m->jnt_axis[3 * map->steer.joint + 2] > 0))
     return mjcf_fail(error, "not a bicycle: the steering axis does not point upwards");
-  if (!find_radii(map, m, error)) return false;
+  const int spin[IMPORT_WHEELS] = {rear->hinge.joint, front->hinge.joint};
+  if (!find_radii(map, m, error) || !import_check_physics(m, map->steer.joint, spin, error))
+    return false;
   if (map->exact) find_rider(&map->rider, m, map->frame); // its drive is checked
   return true;
 }

@@ -164,3 +164,11 @@ runner_status runner_measure_probe(runner_instant *out, runner *r, mjcf_error *e
   for (int i = 0; i < RUNNER_WHEELS; i++) turn_into_heading(out->force[i], m.force[i], out->yaw);
   return RUNNER_OK;
 }
+
+bool runner_at_stop(const runner *r) {
+  for (int i = 0; i < r->probe->nefc; i++) {
+    int type = r->probe->efc_type[i];
+    if (type == mjCNSTR_LIMIT_JOINT || type == mjCNSTR_LIMIT_TENDON) return true;
+  }
+  return false;
+}

@@ -40,6 +40,7 @@ typedef struct engine_instant {
   double pitch;                                                                       // rad
   double kinetic, potential;                                                          // J
   double force[2][3]; // N  of the ground on the wheel (along e_R, left, up)
+  bool at_stop;       //    a stop of the model acts, which the equations do not have
 } engine_instant;
 
 // Called after each row of a ride with the share done, 0..1; false interrupts the ride.

@@ -203,6 +203,7 @@ static term_exit evaluate(engine_instant *out, void *instance, const bike_state 
       .pitch = i.pitch,
       .kinetic = i.kinetic,
       .potential = i.potential,
+      .at_stop = runner_at_stop(engine_mujoco_runner(instance)),
   };
   memcpy(out->force, i.force, sizeof out->force);
   return TERM_DONE;

@@ -53,6 +53,7 @@ static const char mass_name[] = "mass_matrix";
 // The largest errors so far, each with the state at which it stands.
 typedef struct extremes {
   measurement error[ERROR_COUNT];
+  int64_t stopped; // states left out because a stop of the model acts there
 } extremes;
 
 static double value_of(const engine_instant *instant, const quantity *q) {
@@ -148,7 +149,8 @@ static void note_refusal(extremes *out, const bike_state *s, const char *why) {
   }
 }
 
-// Compares at a state. `*admissible` is false where the reference refuses the state.
+// Compares at a state. `*admissible` is false where the reference refuses the state, or where a
+// stop acts.
 static term_exit compare_at(extremes *out, bool *admissible, comparison *c, const bike_state *state,
                             problem *p) {
   engine_instant instant[2];
@@ -163,6 +165,12 @@ static term_exit compare_at(extremes *out, bool *admissible, comparison *c, cons
     return TERM_DONE;
   }
   if (code != TERM_DONE) return problem_prefix(p, code, candidate->label);
+  if (instant[0].at_stop || instant[1].at_stop) {
+    *admissible = false;
+    out->stopped++;
+    problem_set(p, TERM_USAGE, "it is beyond a stop of the model: %s", c->scenario->stops);
+    return TERM_DONE;
+  }
   compare_quantities(out, state, &instant[0], &instant[1]);
   compare_forces(out, state, &instant[0], &instant[1], c->weight);
   return knows_masses(c) ? compare_masses_at(out, c, state, p) : TERM_DONE;
@@ -212,6 +220,14 @@ static term_exit compare_all(extremes *out, comparison *c, problem *p) {
   return code;
 }
 
+static void note_stops(extremes *out, const scenario *s) {
+  for (int i = 0; i < ERROR_COUNT && out->stopped > 0; i++) {
+    size_t used = strlen(out->error[i].detail);
+    snprintf(out->error[i].detail + used, sizeof out->error[i].detail - used,
+             "; %lld states beyond stops left out (%s)", (long long)out->stopped, s->stops);
+  }
+}
+
 static const char *name_of(int error) {
   if (error < QUANTITY_COUNT) return quantities[error].name;
   return error < MASS ? force_names[error - QUANTITY_COUNT] : mass_name;
@@ -220,13 +236,14 @@ static const char *name_of(int error) {
 static term_exit measure(comparison *c, problem *p) {
   if (!c->side[REFERENCE].engine->evaluate || !c->side[CANDIDATE].engine->evaluate)
     return TERM_DONE; // an engine that knows rides only
-  extremes worst;
+  extremes worst = {.stopped = 0};
   for (int i = 0; i < ERROR_COUNT; i++) {
     worst.error[i] = measurement_of(layer_instant.name, name_of(i), "relative", "");
     worst.error[i].value = -1; // less than any error, replaced by the first
   }
   term_exit code = compare_all(&worst, c, p);
   if (code != TERM_DONE) return code;
+  note_stops(&worst, c->scenario);
   int count = knows_masses(c) ? ERROR_COUNT : MASS;
   for (int i = 0; i < count; i++) measurement_add(&c->measurements, &worst.error[i]);
   return TERM_DONE;

@@ -125,6 +125,14 @@ static term_exit publish(const report *r, yardstick *y, const arguments *args) {
   return code;
 }
 
+// Stops of users' models are outside the equations: rides may reach them, instants do not.
+static void tell_stops(const suite *s) {
+  for (size_t i = 0; i < s->count; i++)
+    if (*s->scenarios[i].stops)
+      term_message("%s: the model has stops (%s): L0 compares no states beyond them",
+                   s->scenarios[i].name, s->scenarios[i].stops);
+}
+
 // What can be wrong is found before the work, not after it. A baseline that is missing or damaged
 // is told at once; the report, from which one can be blessed, is made all the same.
 static term_exit prepare(suite *s, yardstick *y, const arguments *args, problem *p) {
@@ -133,6 +141,7 @@ static term_exit prepare(suite *s, yardstick *y, const arguments *args, problem 
   if (code == TERM_BASELINE) y->misfit = *p;
   if (code == TERM_DONE || code == TERM_BASELINE)
     code = suite_load(s, args->scenarios, args->count, p);
+  if (code == TERM_DONE) tell_stops(s);
   if (code == TERM_DONE && *y->misfit.text) term_message("%s", y->misfit.text);
   return code;
 }

@@ -39,6 +39,7 @@ static int read_model(scenario *s, const bike_yaml *yaml, const bike_field *fiel
   mjcf_error error = {""};
   mjModel *model = mjcf_load(path, &error);
   bool found = model && import_bicycle(&s->bicycle, NULL, model, &error);
+  if (found) import_stops(s->stops, sizeof s->stops, model);
   if (model) mj_deleteModel(model);
   if (!found) return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%s: %s", path, error.text);
   snprintf(s->model_path, sizeof s->model_path, "%s", path);

@@ -17,6 +17,7 @@ struct layer;
 enum {
   SCENARIO_NAME = 64,
   SCENARIO_TITLE = 160,
+  SCENARIO_STOPS = 160,
   SCENARIO_PATH = 4096, // PATH_MAX of Linux
   GATE_REASON = 400,
   GATE_MAX_SIGNALS = 16
@@ -102,6 +103,7 @@ typedef struct scenario {
   char title[SCENARIO_TITLE];         //
   char bicycle_name[SCENARIO_PATH];   // as the file names it
   char model_path[SCENARIO_PATH];     // of a bicycle that came as a MuJoCo model; else empty
+  char stops[SCENARIO_STOPS];         // joints that such a model limits, and where; else empty
   bike_bicycle bicycle;               //
   bike_model model;                   //
   double rider_offset;                // m  to the right; already in `bicycle`

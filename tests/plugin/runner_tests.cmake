@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-foreach(name test_bicycle_mjcf test_bicycle_mjcf_apart test_import test_runner test_runner_any
-             test_runner_ends test_runner_faults test_runner_long test_runner_ride test_runner_rider)
+foreach(name test_bicycle_mjcf test_bicycle_mjcf_apart test_import test_import_refusals test_runner
+             test_runner_any test_runner_ends test_runner_faults test_runner_long test_runner_ride test_runner_rider)
   bike_test(NAME ${name} SOURCES ${name}.c
     LIBS mujoco_runner bicycle_oracle bicycle_test_reference bicycle::bicycle TIMEOUT 120)
 endforeach()

@@ -200,6 +200,26 @@ static void a_tiny_bicycle_has_its_model(void **state) {
   run_free(&result);
 }
 
+// What import took for what is said beside the file, which is a bicycle file.
+static void import_tells_how_it_was_understood(void **state) {
+  (void)state;
+  static const char told[] =
+      "bicycle mujoco import: travels along -y\n"
+      "bicycle mujoco import: steer: joint 'hb', positive to the right\n"
+      "bicycle mujoco import: rear wheel 'rearw': radius 0.34 m, from geom 'rtyre'\n"
+      "bicycle mujoco import: front wheel 'frontw': radius 0.34 m, from geom 'ftyre'; at qpos 0 it "
+      "is 0.01755 m above the ground\n"
+      "bicycle mujoco import: wheelbase 1.06815 m, trail 0.069851 m, head angle 70.9414 deg\n";
+  run_result result =
+      run_command("bicycle mujoco import \"" BICYCLE_SOURCE_DIR
+                  "/tests/plugin/import_models/company_bike.xml\" > company.yml; "
+                  "bicycle stability company.yml --speeds 5:6:2 > /dev/null || echo unreadable; "
+                  "rm company.yml");
+  assert_string_equal(result.err, told);
+  assert_string_equal(result.out, "");
+  run_free(&result);
+}
+
 static void help_says_when_a_speed_is_required(void **state) {
   (void)state;
   run_result result = run_command("bicycle mujoco ride --help | tr -s ' \n' ' '; "
@@ -369,6 +389,7 @@ int main(void) {
       cmocka_unit_test(an_old_output_survives),
       cmocka_unit_test(models_ride_as_the_bicycle_does),
       cmocka_unit_test(a_tiny_bicycle_has_its_model),
+      cmocka_unit_test(import_tells_how_it_was_understood),
       cmocka_unit_test(help_says_when_a_speed_is_required),
       cmocka_unit_test(mjcf_prints_what_it_writes),
       cmocka_unit_test(ride_json_has_its_keys),

@@ -263,64 +263,6 @@ static void test_marked_model_is_not_ridden_on_contacts(void **state) {
   assert_non_null(strstr(error.text, "rolling_discs"));
 }
 
-//---------------------------------- refusals ------------------------------------------------------
-
-// The text of fork_first.xml with one piece exchanged.
-static char *edited(const char *from, const char *to) {
-  FILE *stream = fopen(FORK_FIRST, "re");
-  assert_non_null(stream);
-  char text[8192];
-  size_t size = fread(text, 1, sizeof text - 1, stream);
-  fclose(stream);
-  text[size] = '\0';
-  char *at = strstr(text, from), *out = NULL;
-  assert_non_null(at);
-  assert_true(asprintf(&out, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from)) > 0);
-  return out;
-}
-
-static void test_refusals_say_why(void **state) {
-  (void)state;
-  static const struct {
-    const char *from, *to, *says;
-  } cases[] = {
-      {"<joint name=\"head\" type=\"hinge\"", "<joint name=\"head\" type=\"slide\"",
-       "not joined by one hinge; found: slide 'east'"},
-      {"<joint name=\"rear axle\" type=\"hinge\" axis=\"0 1 0\"/>", "",
-       "both wheels are on the same body"},
-      {"<joint name=\"list\" type=\"hinge\" axis=\"1 0 0\"/>", "", "the root has 5 freedoms"},
-      {"type=\"hinge\" axis=\"0 -1 0\"/>", "type=\"hinge\" axis=\"0.1 -1 0\"/>", "not parallel"},
-      {"type=\"hinge\" axis=\"0 -1 0\"/>", "type=\"hinge\" axis=\"0 -1 0\" armature=\"0.1\"/>",
-       "'front axle' has armature"},
-      {"type=\"hinge\" axis=\"0 1 0\"/>\n          <body",
-       "type=\"hinge\" axis=\"0 1 0\" "
-       "stiffness=\"1\"/>\n          <body",
-       "'trim' has stiffness"},
-      {"<compiler angle=\"radian\"/>", "<compiler angle=\"radian\"/><option gravity=\"0 1 -9\"/>",
-       "gravity"},
-      {"mass=\"1e-14\" diaginertia", "mass=\"1\" diaginertia", "'gantry', between"},
-      {"<inertial pos=\"0 0 0\" mass=\"2.5\"", "<inertial pos=\"0.01 0 0\" mass=\"2.5\"",
-       "0.01 m off its axle"},
-      {"diaginertia=\"0.1 0.2 0.1\"", "diaginertia=\"0.1 0.2 0.12\"", "not round about its axle"},
-      {"<body name=\"front\" pos=\"0.03 0 -0.27\">",
-       "<body name=\"front\" pos=\"0.03 0.02 -0.27\">", "not in one plane"},
-      {"</worldbody>", "</worldbody><equality><joint joint1=\"east\" joint2=\"north\"/></equality>",
-       "equality constraint"},
-  };
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    bike_bicycle b;
-    mjcf_error error = {""};
-    char *text = edited(cases[i].from, cases[i].to);
-    mjModel *m = mjcf_compile(text, &error);
-    if (!m) fail_msg("case %zu does not compile: %s", i, error.text);
-    assert_false(import_bicycle(&b, NULL, m, &error));
-    if (!strstr(error.text, cases[i].says)) fail_msg("'%s' for '%s'", error.text, cases[i].says);
-    assert_null(strchr(error.text, '\n'));
-    mj_deleteModel(m);
-    free(text);
-  }
-}
-
 static void test_missing_file(void **state) {
   (void)state;
   runner_status status;
@@ -340,7 +282,6 @@ int main(void) {
       cmocka_unit_test(test_ridden_on_its_own_contacts),
       cmocka_unit_test(test_fall_after_many_lifts_is_told),
       cmocka_unit_test(test_marked_model_is_not_ridden_on_contacts),
-      cmocka_unit_test(test_refusals_say_why),
       cmocka_unit_test(test_missing_file),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

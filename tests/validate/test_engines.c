@@ -302,6 +302,49 @@ static void test_foreign_contacts(void **state) {
   free(wrong);
 }
 
+// A model of somebody else with one piece of its text replaced, "changed.xml" in the test's folder.
+static void write_changed_model(const char *from, const char *to) {
+  char *text = support_read(BICYCLE_SOURCE_DIR "/validate/scenarios/models/somebodys_bicycle.xml");
+  char *changed = support_replace(text, from, to);
+  free(support_write(support_home, "changed.xml", changed));
+  free(changed);
+  free(text);
+}
+
+static const char changed_text[] =
+    "title: stops\nbicycle: ./changed.xml\nstart: {speed: 5, lean_rate: 0.02}\nduration: 0.1\n"
+    "sample: 0.01\ninstants: {count: 20, seed: 3}\nreference: {engine: analytic}\n"
+    "candidate: {engine: mujoco}\ngates:\n"
+    "  - {layer: L0, metric: relative, limit: 1e-9, reason: test}\n";
+
+// Stops are outside the equations: L0 keeps within them and says so, wherever its states come from.
+static void test_stops(void **state) {
+  (void)state;
+  write_changed_model("axis=\"0 0 -1\" damping=\"0.4\"",
+                      "axis=\"0 0 -1\" damping=\"0.4\" limited=\"true\" range=\"-12 15\"");
+  free(support_write(support_home, "stops.yml", changed_text));
+  assert_int_equal(support_validate("stops.yml -o report"), 0);
+  support_expect_text("err", "stops: the model has stops (joint 'column' at -0.20944 and 0.261799 "
+                             "rad): L0 compares no states beyond them");
+  support_expect_text("report/report.json", " states beyond stops left out (joint 'column'");
+  char *beyond = support_replace(changed_text, "lean_rate", "steer: 0.3, lean_rate");
+  free(support_write(support_home, "stops.yml", beyond));
+  assert_int_equal(support_validate("stops.yml -o report"), 2);
+  support_expect_text("err", "start: it is beyond a stop of the model: joint 'column'");
+  free(beyond);
+}
+
+// What is refused on import is refused in a scenario, with its line.
+static void test_servo(void **state) {
+  (void)state;
+  write_changed_model("</worldbody>", "</worldbody><actuator><position name=\"servo\" "
+                                      "joint=\"column\"/></actuator>");
+  free(support_write(support_home, "servo.yml", changed_text));
+  assert_int_equal(support_validate("servo.yml -o report"), 2);
+  support_expect_text("err", "servo.yml:2: bicycle: ");
+  support_expect_text("err", "actuator 'servo' acts while its control is zero");
+}
+
 static void test_solref_is_for_contacts(void **state) {
   (void)state;
   scenario s;
@@ -355,6 +398,8 @@ int main(void) {
       cmocka_unit_test(test_short_recording_ends_early),
       cmocka_unit_test_setup_teardown(test_two_million_rows, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_foreign_contacts, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_stops, support_enter, support_leave),
+      cmocka_unit_test_setup_teardown(test_servo, support_enter, support_leave),
       cmocka_unit_test_setup_teardown(test_solref_is_for_contacts, support_enter, support_leave),
       cmocka_unit_test(test_cvode),
   };
