@@ -8,7 +8,9 @@ set -eu
 checks() {
   cat <<'END'
 mode_names|names of modes: 200 lists of speeds, 200 random bicycles|build/release/tests/test_modes 200 200
-threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|ctest --preset release -R '_threads|test_suite'
+threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan
+fuzz|each fuzz target for two minutes|sh tests/fuzz.sh --no-install 120
+faults|faults of the past, put back, are found by fuzzing|sh tests/fuzz/faults.sh
 END
 }
 

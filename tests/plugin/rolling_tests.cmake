@@ -25,16 +25,8 @@ add_dependencies(test_rolling_library mujoco_rolling)
 
 #---------------------------------- threads --------------------------------------------------------
 
-# The library's own sources, built for the thread sanitizer; the address sanitizer excludes it.
-get_target_property(rolling_files mujoco_rolling_objects SOURCES)
-list(TRANSFORM rolling_files PREPEND ${PROJECT_SOURCE_DIR}/plugin/)
-bike_test(NAME test_rolling_threads SOURCES test_rolling_threads.c ${rolling_files}
-  LIBS MuJoCo::MuJoCo ENVIRONMENT ${rolling_examples} TSAN_OPTIONS=halt_on_error=1)
-target_include_directories(test_rolling_threads PRIVATE ${PROJECT_SOURCE_DIR}/plugin)
-if(BICYCLE_THREAD_SANITIZER)
-  target_compile_options(test_rolling_threads PRIVATE -fsanitize=thread -g)
-  target_link_options(test_rolling_threads PRIVATE -fsanitize=thread)
-endif()
+bike_test(NAME test_rolling_threads SOURCES test_rolling_threads.c
+  LIBS mujoco_rolling_static ENVIRONMENT ${rolling_examples} TSAN_OPTIONS=halt_on_error=1)
 
 #---------------------------------- programs of others ---------------------------------------------
 
@@ -52,17 +44,17 @@ endfunction()
 find_program(MUJOCO_TESTSPEED mujoco-testspeed)
 find_program(MUJOCO_SIMULATE mujoco-simulate)
 find_program(XVFB_RUN xvfb-run)
-if(MUJOCO_TESTSPEED AND NOT BICYCLE_SANITIZE)
+if(MUJOCO_TESTSPEED AND NOT BICYCLE_SANITIZERS)
   rolling_guest(rolling_in_testspeed ${MUJOCO_TESTSPEED} ${rolling_folder}/bicycle.xml 1000 1)
 endif()
-if(MUJOCO_SIMULATE AND XVFB_RUN AND NOT BICYCLE_SANITIZE)
+if(MUJOCO_SIMULATE AND XVFB_RUN AND NOT BICYCLE_SANITIZERS)
   rolling_guest(rolling_in_simulate
     ${XVFB_RUN} -a ${MUJOCO_SIMULATE} ${rolling_folder}/bicycle.xml)
 endif()
 
 #---------------------------------- the installed package ------------------------------------------
 
-if(NOT BICYCLE_SANITIZE)
+if(NOT BICYCLE_SANITIZERS)
   add_test(NAME rolling_package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
     -DSOURCE=${CMAKE_CURRENT_LIST_DIR}/rolling_package -DMODEL=${rolling_folder}/bicycle.xml
     -DWORK=${CMAKE_CURRENT_BINARY_DIR}/rolling_package

@@ -15,7 +15,7 @@ foreach(name test_commands test_commands_any test_commands_set)
 endforeach()
 
 # A machine without OSMesa; a sanitizer's own library must come before anything preloaded.
-if(NOT BICYCLE_SANITIZE)
+if(NOT BICYCLE_SANITIZERS)
   add_library(no_osmesa MODULE no_osmesa.c)
   target_link_libraries(no_osmesa PRIVATE bicycle_options ${CMAKE_DL_LIBS})
   add_dependencies(test_commands_any no_osmesa)

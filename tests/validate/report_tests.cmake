@@ -5,6 +5,10 @@ bike_test(NAME test_baseline SOURCES test_baseline.c LIBS validate_support TIMEO
 add_dependencies(test_report_schema bicycle-validate)
 add_dependencies(test_baseline bicycle-validate)
 
+if(BICYCLE_SANITIZERS)
+  return()
+endif()
+
 # report.html in a headless Chromium: Debian's package chromium, which only tests need. Found when
 # the build is configured; without it the test says that it is skipped.
 find_program(CHROMIUM_PROGRAM NAMES chromium DOC "Chromium, for the test of report.html")
