@@ -121,6 +121,7 @@ int turn_branch_land(turn_point *out, double *residual, const turn_curve *curve,
   turn_point found = near;
   code = turn_curve_correct(&found, residual, curve, solver, &near, 0);
   if (code || !(distance(found.y, y) <= LONGEST_STEP)) return BIKE_ERROR_NO_CONVERGENCE;
+  if (beyond(curve, found.y)) return BIKE_ERROR_NO_CONVERGENCE;
   *out = found;
   return BIKE_OK;
 }

@@ -15,7 +15,7 @@ typedef struct turn_branch {
 } turn_branch;
 
 // The point of the curve next to y, in the plane across the tangent there. NO_CONVERGENCE or a
-// geometry error where there is none after all.
+// geometry error where there is none after all, or none where branches are followed.
 int turn_branch_land(turn_point *out, double *residual, const turn_curve *curve, newton *solver,
                      const double y[Y_SIZE]);
 

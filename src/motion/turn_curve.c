@@ -2,6 +2,7 @@
 #include "motion/turn_curve.h"
 
 #include <bicycle/error.h>
+#include <float.h>
 #include <math.h>
 
 #include "motion/turn_terms.h"
@@ -69,6 +70,16 @@ int turn_curve_tangent(double along[Y_SIZE], const turn_curve *c, const double y
   if (product(t, direction) < 0) length = -length;
   for (int j = 0; j < Y_SIZE; j++) along[j] = t[j] / length;
   return BIKE_OK;
+}
+
+bool turn_curve_degenerate(const turn_curve *c, const double y[Y_SIZE]) {
+  const turn_forces none = {0};
+  double f[TURN_ROWS], J[TURN_ROWS][Y_SIZE];
+  if (turn_curve_equations(f, J, c, y)) return false;
+  // of the weight's terms, as of solutions
+  double moments = turn_moments(c->bicycle, &none, 0, turn_curve_offset(c, y));
+  double rounding = 64 * DBL_EPSILON * turn_row_terms(c->bicycle, moments);
+  return product(J[0], J[0]) <= rounding * rounding || product(J[1], J[1]) <= rounding * rounding;
 }
 
 typedef struct plane_question {

@@ -49,6 +49,10 @@ int turn_curve_correct_between(turn_point *out, double *residual, const turn_cur
 int turn_curve_tangent(double along[Y_SIZE], const turn_curve *curve, const double y[Y_SIZE],
                        const double direction[Y_SIZE]);
 
+// Whether one of the equations is nothing but rounding at y, as the steer's is where nothing turns
+// it: solutions there are no curve. False also where the geometry ends.
+bool turn_curve_degenerate(const turn_curve *curve, const double y[Y_SIZE]);
+
 // v^2 (negative where no speed would do, not finite at zero steer) and the rider's offset.
 double turn_curve_square(const turn_curve *curve, const double y[Y_SIZE]);
 double turn_curve_offset(const turn_curve *curve, const double y[Y_SIZE]);

@@ -24,8 +24,11 @@ static const int JACOBIAN_LIFE = 3;
 // Guesses come from a neighbouring solution: a step as long as this has lost its way.
 static const double LONGEST_STEP = 1.0;
 
+// Of one search: five times what the longest one seen takes.
+enum { MOST_SOLVES = 40000 };
+
 struct newton {
-  int size;
+  int size, solves;
   SUNContext context;
   void *kinsol;
   N_Vector x, scale;
@@ -115,8 +118,14 @@ static double largest(const double *f, int size) {
   return most;
 }
 
+bool newton_spent(const newton *s) {
+  return s->solves >= MOST_SOLVES;
+}
+
 int newton_solve(newton *s, double *x, double *residual, newton_function *function,
                  const void *user) {
+  if (newton_spent(s)) return 1;
+  s->solves++;
   s->function = function;
   s->user = user;
   double f[NEWTON_MAX];

@@ -131,6 +131,7 @@ int turn_search_place(bike_turns *out, const turn_bicycle *bicycle, const bike_t
   int count = zeros(offsets, &p, def->offset_limit);
   for (int i = 0; i < count && !code; i++)
     code = add_offset(out, bicycle, def, solvers, offsets[i]);
+  if (!code && (newton_spent(solvers.two) || newton_spent(solvers.three))) code = BIKE_ERROR_FULL;
   newton_free(solvers.two);
   newton_free(solvers.three);
   return code;

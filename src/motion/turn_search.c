@@ -19,6 +19,8 @@ typedef struct search {
   newton *corrector, *polisher; // of three and of two equations
   bike_turn_variable measured;  // given beside what the curve fixes; BIKE_TURN_VARIABLES: none
   turn_wanted wanted;           // folds to mark
+  bool marks;                   // to be looked for: not where nothing turns the steer upright, and
+                                // folds and ends are those of rounding
   turn_straight straight;       // riding, where the curve passes it
   bool straight_answers;        // and it has what is measured
   turn_family family;           // of the branch being searched
@@ -55,7 +57,7 @@ static bool same(const bike_turn *a, const bike_turn *b) {
 int turn_keep(bike_turn *list, int *count, const bike_turn *turn) {
   for (int i = 0; i < *count; i++)
     if (same(&list[i], turn)) return BIKE_OK;
-  if (*count == BIKE_MAX_TURNS) return BIKE_ERROR_MEMORY;
+  if (*count == BIKE_MAX_TURNS) return BIKE_ERROR_FULL;
   list[(*count)++] = *turn;
   return BIKE_OK;
 }
@@ -146,7 +148,7 @@ static int meet_straight(search *s) {
 // A piece that straight riding may end, and does not pass.
 static int search_piece(search *s, const turn_piece *piece) {
   turn_event events[PIECE_EVENTS];
-  int count = turn_piece_marks(events, piece, s->wanted), code = BIKE_OK;
+  int count = s->marks ? turn_piece_marks(events, piece, s->wanted) : 0, code = BIKE_OK;
   if (count < 0) return BIKE_ERROR_NO_CONVERGENCE;
   for (int i = 0; i < count && !code; i++)
     if (turn_straight_apart(&s->straight, events[i].at.y)) code = add_mark(s, &events[i]);
@@ -198,10 +200,10 @@ static int follow(search *s, turn_branch *branches, const double y[Y_SIZE]) {
   if (covered(branches, count, y)) return BIKE_OK;
   if (turn_branch_land(&start, &residual, &s->curve, s->corrector, y)) return BIKE_OK;
   if (covered(branches, count, start.y)) return BIKE_OK;
-  if (count == BIKE_MAX_TURNS) return BIKE_ERROR_MEMORY;
-  s->out->branch_count++;
+  if (count == BIKE_MAX_TURNS) return BIKE_ERROR_FULL;
   int code = turn_branch_trace(&branches[count], &s->curve, s->corrector, &start);
   if (code) return code;
+  s->out->branch_count++;
   s->family = turn_family_of(&branches[count], &s->curve, count == 0);
   return search_branch(s, &branches[count]);
 }
@@ -230,6 +232,7 @@ int turn_search(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_de
     s.wanted[v] = s.measured == BIKE_TURN_VARIABLES || (int)s.measured == v;
   s.corrector = newton_create(3);
   s.polisher = newton_create(2);
+  s.marks = at_speed || !turn_curve_degenerate(&s.curve, (const double[Y_SIZE]){0});
   turn_seeds seeds = {0};
   turn_straight_find(&s.straight, &s.curve);
   s.straight_answers =
@@ -237,6 +240,9 @@ int turn_search(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_de
       turn_straight_answers(&s.straight, &s.curve, s.measured, def->value[s.measured]);
   int code = s.corrector && s.polisher ? turn_seeds_find(&seeds, &s.curve) : BIKE_ERROR_MEMORY;
   if (!code) code = follow_all(&s, &seeds);
+  // branches that could not be followed to their ends hold answers that were not seen
+  bool spent = s.corrector && s.polisher && (newton_spent(s.corrector) || newton_spent(s.polisher));
+  if (spent) code = BIKE_ERROR_FULL;
   turn_seeds_free(&seeds);
   newton_free(s.corrector);
   newton_free(s.polisher);

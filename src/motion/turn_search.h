@@ -14,7 +14,7 @@ int turn_search(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_de
 // Lean and steer given: solutions in closed form.
 int turn_search_place(bike_turns *out, const turn_bicycle *bicycle, const bike_turn_def *def);
 
-// Appends a solution or a mark unless it is there already. MEMORY where there is no room.
+// Appends a solution or a mark unless it is there already. FULL where there is no room.
 int turn_keep(bike_turn *list, int *count, const bike_turn *turn);
 
 #endif

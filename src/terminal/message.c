@@ -70,6 +70,7 @@ term_exit term_exit_of(int code) {
   case BIKE_ERROR_MEMORY:
   case BIKE_ERROR_SOLVER:
   case BIKE_ERROR_NO_CONVERGENCE:
+  case BIKE_ERROR_FULL:
   case BIKE_ERROR_INTERRUPTED:
     return TERM_INVALID;
   default:

@@ -4,6 +4,8 @@
 #include "motion/turns.h"
 #include "support/near.h"
 #include <bicycle/error.h>
+#include <bicycle/file.h>
+#include <stdio.h>
 
 static int asked(const bike_model *model, bike_turn_def def) {
   static bike_turns found;
@@ -61,8 +63,46 @@ static void degenerate_questions_are_answered(void **state) {
   assert_true(turns_of(&model, &def)->count >= 1);
 }
 
+static bike_model odd(const char *name) {
+  char path[512];
+  snprintf(path, sizeof path, "%s/tests/odd_bicycles/%s.yml", BICYCLE_SOURCE_DIR, name);
+  bike_file file;
+  bike_file_error error;
+  bike_model model;
+  if (bike_file_read(&file, path, &error)) fail_msg("%s", error.text);
+  assert_int_equal(bike_model_init(&model, &file.bicycle), BIKE_OK);
+  return model;
+}
+
+// A branch that runs beyond any speed is one, however many meshes of the grid see the rest of it.
+static void a_flat_steering_axis_is_answered(void **state) {
+  (void)state;
+  bike_model model = odd("flat_axis");
+  bike_turn_def def = turn_def(BIKE_TURN_OFFSET, 0, BIKE_TURN_LEAN, 5 * DEGREE);
+  const bike_turns *found = turns_of(&model, &def);
+  assert_int_equal(main_family_count(found), 0); // it is ridden beyond the 50 m/s looked at
+  assert_in_range(found->branch_count, 1, 8);
+  def.speed_limit = 1000;
+  found = turns_of(&model, &def);
+  assert_int_equal(main_family_count(found), 1);
+  assert_near(found->turns[0].speed, 222.687, 1e-3);
+  assert_near(found->turns[0].lean, 5 * DEGREE, 0);
+}
+
+// Standing upright, it stands at every steer: there is no fold, and no end.
+static void a_free_steer_has_no_folds(void **state) {
+  (void)state;
+  bike_model model = odd("free_steer");
+  bike_turn_def def = turn_def(BIKE_TURN_OFFSET, 0, BIKE_TURN_OFFSET, 0);
+  assert_int_equal(turns_of(&model, &def)->mark_count, 0);
+  def = turn_def(BIKE_TURN_OFFSET, 0, BIKE_TURN_LEAN, 5 * DEGREE);
+  assert_int_equal(turns_of(&model, &def)->mark_count, 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_flat_steering_axis_is_answered),
+      cmocka_unit_test(a_free_steer_has_no_folds),
       cmocka_unit_test(impossible_questions_are_refused),
       cmocka_unit_test(degenerate_questions_are_answered),
   };

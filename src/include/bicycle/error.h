@@ -24,7 +24,8 @@
                                "straight is one only of a bicycle that is its own mirror image)")  \
   X(BIKE_ERROR_INTERRUPTED, "interrupted by the caller")                                           \
   X(BIKE_ERROR_FILE, "a file cannot be read or written")                                           \
-  X(BIKE_ERROR_SYNTAX, "a file does not say what it should")
+  X(BIKE_ERROR_SYNTAX, "a file does not say what it should")                                       \
+  X(BIKE_ERROR_FULL, "full: more solutions or longer branches than a search has room for")
 
 typedef enum bike_error {
 #define BIKE_ERROR_CODE(code, text) code,

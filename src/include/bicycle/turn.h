@@ -106,8 +106,9 @@ BIKE_API bike_turn_def bike_turn_limits(const bike_turn_def *def, const bike_mod
 // of its eigenvalues is zero but for rounding, so that nothing decides between the three.
 //
 // Errors: ARGUMENT, NOT_FINITE, NO_RIDER (an offset other than zero, or one asked for by leaving it
-// out, without a rider), NO_CONVERGENCE with `residual`, MEMORY. No solution is count = 0, not an
-// error.
+// out, without a rider), NO_CONVERGENCE with `residual`, MEMORY, FULL where there are more
+// solutions, marks or branches than BIKE_MAX_TURNS, or branches so long that the search, which has
+// a bound on its work, was given up. No solution is count = 0, not an error.
 BIKE_API int bike_turns_find(bike_turns *out, const bike_model *model, const bike_turn_def *def);
 
 // The one solution near `from`, a solution of a neighbouring question: two variables are given.
