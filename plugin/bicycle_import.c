@@ -55,7 +55,7 @@ static bool find_all(bike_bicycle *out, import_view *v, mjcf_error *error) {
   guard_report report;
   assign_assemblies(v);
   guard_call(&report, kinematics, v);
-  if (report.failed) return mjcf_fail(error, "%s", report.error);
+  if (report.failed) return guard_fail(error, &report);
   return import_find_joints(v, error) &&
          import_check_physics(v->m, v->map.steer, v->map.spin, error) &&
          import_find_wheels(v, error) && import_find_geometry(v, error) &&
@@ -63,11 +63,11 @@ static bool find_all(bike_bicycle *out, import_view *v, mjcf_error *error) {
 }
 
 bool import_bicycle(bike_bicycle *out, import_map *map, const mjModel *model, mjcf_error *error) {
-  import_view v = {.m = model, .d = mj_makeData(model)};
+  import_view v = {.m = model, .d = guard_make_data(model)};
   v.assembly = (int *)calloc((size_t)model->nbody, sizeof *v.assembly);
   bool found = v.d && v.assembly;
   if (!found)
-    mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+    mjcf_fail_memory(error);
   else
     found = find_all(out, &v, error);
   if (found && map) *map = v.map;

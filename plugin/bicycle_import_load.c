@@ -4,6 +4,7 @@
 #include "bicycle_import.h"
 
 #include "bicycle_mjcf_internal.h"
+#include "runner_guard.h"
 
 #include <bicycle/error.h>
 #include <stdio.h>
@@ -26,19 +27,22 @@ static char *wrapping_text(const char *base) {
 
 static mjModel *compile(const char *name, const char *text, mjcf_error *error) {
   mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs); // 2 MB: too large for a stack
-  mjcf_error why = {""};
+  mjcf_error why = {.text = ""};
   mjModel *model = NULL;
-  if (!vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  if (!vfs) return mjcf_fail_memory(error), NULL;
   mj_defaultVFS(vfs);
-  if (mj_makeEmptyFileVFS(vfs, name, (int)strlen(text)) == 0) {
+  if (guard_make_file(vfs, name, (int)strlen(text))) {
     memcpy(vfs->filedata[0], text, strlen(text));
     model = mjcf_call_compiler(name, vfs, &why);
+  } else {
+    mjcf_fail_memory(&why);
   }
   mj_deleteVFS(vfs);
   free(vfs);
-  if (!model)
-    mjcf_fail(error, "with a marker for its wheels: %.400s",
-              *why.text ? why.text : "out of memory");
+  if (!model) {
+    mjcf_fail(error, "with a marker for its wheels: %.400s", why.text);
+    error->no_memory = why.no_memory;
+  }
   return model;
 }
 

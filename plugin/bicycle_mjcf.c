@@ -2,6 +2,8 @@
 // The text of the model: what moves, what weighs, what rolls.
 #include "bicycle_mjcf_internal.h"
 
+#include "files/memory_stream.h"
+
 #include <bicycle/error.h>
 #include <stdlib.h>
 
@@ -278,14 +280,14 @@ char *mjcf_end_text(FILE *out, char **text, mjcf_error *error) {
   bool whole = !ferror(out);
   if (fclose(out) == 0 && whole) return *text;
   free(*text);
-  return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  return mjcf_fail_memory(error), NULL;
 }
 
 static char *make_text(mjcf_plan *plan, const mjcf_key *key, mjcf_error *error) {
   char *text = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  FILE *out = bike_memory_stream(&text, &size);
+  if (!out) return mjcf_fail_memory(error), NULL;
   put_model(out, plan, key);
   return mjcf_end_text(out, &text, error);
 }

@@ -49,10 +49,12 @@ mjcf_options mjcf_default_options(void);
 enum { MJCF_TEXT_SIZE = 512 };
 typedef struct mjcf_error {
   char text[MJCF_TEXT_SIZE];
+  bool no_memory; // and nothing else is to blame
 } mjcf_error;
 
 // Writes printf-like text into the error; returns false, so that one can return what it returns.
 bool mjcf_fail(mjcf_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool mjcf_fail_memory(mjcf_error *error); // "out of memory"
 
 // The state of the keyframe `test`, from which mujoco-testspeed and the plugin start.
 enum { MJCF_MAX_QPOS = 11, MJCF_MAX_QVEL = 10 };

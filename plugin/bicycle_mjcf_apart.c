@@ -3,6 +3,8 @@
 // more than mjcf_text's, and the scene.
 #include "bicycle_mjcf_internal.h"
 
+#include "files/memory_stream.h"
+
 #include <bicycle/error.h>
 #include <stdlib.h>
 
@@ -109,8 +111,8 @@ char *mjcf_scene_text(const bike_bicycle *bicycle, const char *model_file, mjcf_
   if (code != BIKE_OK) return mjcf_fail(error, "%s", bike_error_string(code)), NULL;
   char *text = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  FILE *out = bike_memory_stream(&text, &size);
+  if (!out) return mjcf_fail_memory(error), NULL;
   put_scene(out, bicycle, upright.wheelbase, model_file);
   return mjcf_end_text(out, &text, error);
 }

@@ -51,7 +51,9 @@ mjModel *mjcf_call_compiler(const char *path, mjVFS *vfs, mjcf_error *error) {
   pthread_mutex_unlock(&lock);
   fold(l.error);
   if (!report.failed && l.model) return l.model;
-  const char *why = report.failed ? report.error : report.warnings ? report.warning : l.error;
+  if (report.failed) return guard_fail(error, &report), NULL;
+  if (guard_tells_of_memory(l.error)) return mjcf_fail_memory(error), NULL;
+  const char *why = report.warnings ? report.warning : l.error;
   mjcf_fail(error, "%s", *why ? why : "not a MuJoCo model");
   return NULL;
 }
@@ -76,8 +78,7 @@ static mjModel *load_exactly(const char *path, mjVFS *vfs, mjcf_error *error) {
 static bool add_file(mjVFS *vfs, const char *name, const char *text, mjcf_error *error) {
   size_t size = strlen(text);
   if (size == 0) return mjcf_fail(error, "the text is empty"); // MuJoCo would end the program
-  if (mj_makeEmptyFileVFS(vfs, name, (int)size) != 0)
-    return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+  if (!guard_make_file(vfs, name, (int)size)) return mjcf_fail_memory(error);
   memcpy(vfs->filedata[vfs->nfile - 1], text, size);
   return true;
 }
@@ -86,7 +87,7 @@ mjModel *mjcf_compile_scene(const char *scene, const char *model_file, const cha
                             mjcf_error *error) {
   static const char name[] = "bicycle-scene.xml";
   mjVFS *vfs = (mjVFS *)malloc(sizeof *vfs); // 2 MB: too large for a stack
-  if (!vfs) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  if (!vfs) return mjcf_fail_memory(error), NULL;
   mj_defaultVFS(vfs);
   mjModel *compiled = NULL;
   if (add_file(vfs, name, scene, error) && (!model_file || add_file(vfs, model_file, model, error)))

@@ -147,11 +147,11 @@ bool mjcf_apply_inertia(mjModel *model, mjcf_error *error) {
     applied++;
   }
   if (applied == 0) return true;
-  mjData *data = mj_makeData(model);
-  if (!data) return mjcf_fail(error, "out of memory");
+  mjData *data = guard_make_data(model);
+  if (!data) return mjcf_fail_memory(error);
   // What MuJoCo warns of here it warns of again in the first step, where it ends a ride.
   guard_report report;
   guard_call(&report, set_constants, &(constants){model, data});
   mj_deleteData(data);
-  return report.failed ? mjcf_fail(error, "%s", report.error) : true;
+  return !report.failed || guard_fail(error, &report);
 }

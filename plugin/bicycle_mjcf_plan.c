@@ -19,6 +19,13 @@ bool mjcf_fail(mjcf_error *error, const char *format, ...) {
   va_start(arguments, format);
   vsnprintf(error->text, sizeof error->text, format, arguments);
   va_end(arguments);
+  error->no_memory = false;
+  return false;
+}
+
+bool mjcf_fail_memory(mjcf_error *error) {
+  mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+  error->no_memory = true;
   return false;
 }
 

@@ -2,6 +2,8 @@
 // The README.md of a model with its scene.
 #include "bicycle_mjcf_internal.h"
 
+#include "files/memory_stream.h"
+
 #include <bicycle/error.h>
 #include <stdlib.h>
 
@@ -184,8 +186,8 @@ char *mjcf_readme_text(const bike_bicycle *bicycle, const mjcf_options *options,
   if (!mjcf_plan_init(&plan, bicycle, options, error)) return NULL;
   char *text = NULL;
   size_t size = 0;
-  const page p = {open_memstream(&text, &size), &plan, origin};
-  if (!p.out) return mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY)), NULL;
+  const page p = {bike_memory_stream(&text, &size), &plan, origin};
+  if (!p.out) return mjcf_fail_memory(error), NULL;
   put_head(&p);
   put_use(&p);
   put_names(&p);

@@ -37,6 +37,11 @@ typedef struct cmd_set {
 // Writes it, whole or not at all.
 term_exit cmd_write_set(const cmd_set *set);
 
+// How the program ends where there is no model: TERM_INVALID when out of memory, else TERM_USAGE;
+// the second reports it too, "file: text".
+term_exit cmd_exit_of(const mjcf_error *error);
+term_exit cmd_fail_model(const char *file, const mjcf_error *error);
+
 // FILE and the start state, every number of it NAN until it is given: `speed` may be missing.
 term_start cmd_no_start(void);
 

@@ -105,7 +105,7 @@ static term_exit write_bicycle(const bike_bicycle *bicycle, const char *path) {
     code = bike_output_commit(&out, &error);
   }
   bike_output_abort(&out);
-  return code == BIKE_OK ? TERM_DONE : term_fail(TERM_USAGE, "%s", error.text);
+  return code == BIKE_OK ? TERM_DONE : term_fail(term_exit_of(code), "%s", error.text);
 }
 
 //---------------------------------- how it was understood -----------------------------------------
@@ -155,13 +155,13 @@ int cmd_import(int argc, char **argv) {
   const struct argp argp = {options, parse, "MODEL", documentation, NULL, NULL, NULL};
   arguments args = {0};
   bike_bicycle bicycle;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   term_parse(&argp, example, argc, argv, &args);
   import_map map;
   mjModel *model = mjcf_load(args.model, &error);
   bool found = model && import_bicycle(&bicycle, &map, model, &error);
-  term_exit code = found ? write_bicycle(&bicycle, args.output)
-                         : term_fail(TERM_USAGE, "%s: %s", args.model, error.text);
+  term_exit code =
+      found ? write_bicycle(&bicycle, args.output) : cmd_fail_model(args.model, &error);
   if (code == TERM_DONE) tell(model, &map, &bicycle);
   if (model) mj_deleteModel(model);
   return code;

@@ -4,6 +4,7 @@
 #include "cmd.h"
 #include "runner.h"
 
+#include "files/memory_stream.h"
 #include "terminal/data.h"
 
 #include <bicycle/error.h>
@@ -90,7 +91,7 @@ static bike_state lively_state(const bike_model *model) {
 static term_exit find_key(mjcf_key *key, const bike_bicycle *bicycle, const mjcf_options *made,
                           const bike_state *state, const char *file) {
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_create(bicycle, made, &status, &error);
   if (r) status = runner_start(r, state, &error);
   if (status == RUNNER_OK) {
@@ -111,7 +112,7 @@ static term_exit write_bytes(const char *path, const void *bytes, size_t size) {
     code = bike_output_commit(&out, &error);
   }
   bike_output_abort(&out);
-  return code == BIKE_OK ? TERM_DONE : term_fail(TERM_USAGE, "%s", error.text);
+  return code == BIKE_OK ? TERM_DONE : term_fail(term_exit_of(code), "%s", error.text);
 }
 
 // mj_sizeModel is some kB more than mj_saveModel writes, and mj_loadModel refuses the difference:
@@ -144,13 +145,13 @@ static void tell_of_placeholders(const bike_bicycle *bicycle, const mjcf_options
 static term_exit write_model(const arguments *args, const bike_bicycle *bicycle,
                              const mjcf_key *key) {
   bool binary = args->output && term_ends_with(args->output, ".mjb");
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   char *text = mjcf_text(bicycle, &args->model.options, key, &error);
   // Compiled also where only the text is asked for: no file leaves here that MuJoCo would refuse.
   mjModel *model = text ? mjcf_compile(text, &error) : NULL;
   term_exit code;
   if (!model)
-    code = term_fail(TERM_USAGE, "%s: %s", args->start.file, error.text);
+    code = cmd_fail_model(args->start.file, &error);
   else if (binary)
     code = write_binary(model, args->output);
   else
@@ -179,7 +180,7 @@ static void check(const arguments *args) {
 static char *join(int argc, char **argv) {
   char *text = NULL;
   size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = bike_memory_stream(&text, &size);
   for (int i = 0; out && i < argc; i++) fprintf(out, "%s%s", i ? " " : "", argv[i]);
   return out && fclose(out) == 0 ? text : NULL;
 }

@@ -4,6 +4,7 @@
 #include "cmd.h"
 #include "picture.h"
 
+#include "files/memory_stream.h"
 #include "terminal/data.h"
 #include "terminal/folder.h"
 
@@ -58,9 +59,10 @@ static bool find_names(names *out, const char *file) {
 
 static bool read_source(term_file *out, const names *n, mjcf_error *error) {
   FILE *in = fopen(n->path, "re");
+  if (!in && errno == ENOMEM) return mjcf_fail_memory(error);
   if (!in) return mjcf_fail(error, "%s", strerror(errno));
   char *bytes = NULL, block[4096];
-  FILE *copy = open_memstream(&bytes, &out->size);
+  FILE *copy = bike_memory_stream(&bytes, &out->size);
   for (size_t count = 1; copy && count > 0;) {
     count = fread(block, 1, sizeof block, in);
     fwrite(block, 1, count, copy);
@@ -69,7 +71,7 @@ static bool read_source(term_file *out, const names *n, mjcf_error *error) {
   fclose(in);
   if (copy && fclose(copy) != 0) whole = false;
   out->bytes = bytes;
-  return whole || mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+  return whole || mjcf_fail_memory(error);
 }
 
 static void keep_text(term_file *out, char *text) {
@@ -100,9 +102,9 @@ static picture_status take_picture(term_file *out, const mjModel *model, const d
   picture_status status;
   picture *p = picture_create(model, (picture_size){1280, 800}, NULL, &status, error);
   char *bytes = NULL;
-  FILE *stream = p ? open_memstream(&bytes, &out->size) : NULL;
+  FILE *stream = p ? bike_memory_stream(&bytes, &out->size) : NULL;
   if (p && !stream) {
-    mjcf_fail(error, "%s", bike_error_string(BIKE_ERROR_MEMORY));
+    mjcf_fail_memory(error);
     status = PICTURE_MEMORY;
   }
   if (stream) {
@@ -117,10 +119,10 @@ static picture_status take_picture(term_file *out, const mjModel *model, const d
 // Compiled, so that no file leaves here that MuJoCo would refuse.
 static term_exit fill(term_file files[FILES], const cmd_set *set, const names *n,
                       mjcf_error *error) {
-  if (!make_texts(files, set, n, error)) return TERM_USAGE;
+  if (!make_texts(files, set, n, error)) return cmd_exit_of(error);
   mjModel *model = mjcf_compile_scene((const char *)files[SCENE].bytes, n->file[MODEL],
                                       (const char *)files[MODEL].bytes, error);
-  if (!model) return TERM_USAGE;
+  if (!model) return cmd_exit_of(error);
   picture_status status = PICTURE_OK;
   if (!set->no_picture) status = take_picture(&files[PICTURE], model, set->key->qpos, error);
   mj_deleteModel(model);
@@ -129,7 +131,7 @@ static term_exit fill(term_file files[FILES], const cmd_set *set, const names *n
 
 term_exit cmd_write_set(const cmd_set *set) {
   names n;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (!find_names(&n, set->file))
     return term_fail(TERM_USAGE, "%s: the path is too long", set->file);
   term_file files[FILES];

@@ -75,3 +75,11 @@ bool cmd_has_start(term_start *start) {
   }
   return given;
 }
+
+term_exit cmd_exit_of(const mjcf_error *error) {
+  return error->no_memory ? TERM_INVALID : TERM_USAGE;
+}
+
+term_exit cmd_fail_model(const char *file, const mjcf_error *error) {
+  return term_fail(cmd_exit_of(error), "%s: %s", file, error->text);
+}

@@ -136,7 +136,7 @@ static void note_ground(rider *self, const runner_ride_result *result) {
 
 static term_exit ride(rider *self) {
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_ride(&result, self->run, &self->def, &error);
   term_ride_stop(&self->ride);
   // A stream that takes no more rows is reported when it is committed.
@@ -188,7 +188,7 @@ static term_exit fail(const rider *self, runner_status status, const mjcf_error 
 static term_exit load_model(rider *self) {
   const char *file = self->args->ride.start.file;
   runner_status status;
-  mjcf_error refusal = {""};
+  mjcf_error refusal = {.text = ""};
   self->run = runner_load(file, &status, &self->why);
   if (self->run) cmd_adjust_model(runner_model(self->run), &self->args->model);
   if (self->run || status != RUNNER_MODEL)
@@ -204,7 +204,7 @@ static term_exit make_model(rider *self) {
   bike_bicycle bicycle;
   bike_model model;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   double rider_offset = args->ride.constant.rider_offset;
   term_exit code = term_load_with_rider(&bicycle, &model, args->ride.start.file, rider_offset);
   if (code != TERM_DONE) return code;
@@ -215,11 +215,12 @@ static term_exit make_model(rider *self) {
   self->run = runner_create(&bicycle, &made, &status, &error);
   if (!self->run) return fail(self, status, &error);
   if (args->picture.output) self->look = mjcf_model(&bicycle, &made, NULL, &error);
-  return !args->picture.output || self->look ? TERM_DONE : fail(self, RUNNER_MODEL, &error);
+  if (!args->picture.output || self->look) return TERM_DONE;
+  return cmd_fail_model(args->ride.start.file, &error);
 }
 
 static term_exit start(rider *self) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (self->args->project)
     return term_fail(TERM_USAGE, "--project: %s is a bicycle: --speed and the like place it",
                      self->args->ride.start.file);

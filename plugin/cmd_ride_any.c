@@ -127,7 +127,7 @@ static term_exit ride(outing *o) {
                               .on_note = take_note,
                               .user = o};
   runner_any_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_any_ride(&result, o->run, &def, &error);
   term_ride_stop(o->ride);
   if (o->full) return term_fail_bike(BIKE_ERROR_MEMORY, file_of(o));
@@ -142,7 +142,7 @@ static term_exit ride(outing *o) {
 //---------------------------------- preparation ---------------------------------------------------
 
 static term_exit start(const outing *o) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   double moved;
   runner_status status = runner_any_start(o->run, o->args->project, &moved, &error);
   const char *hint = status == RUNNER_START && !o->args->project ? "; --project puts it right" : "";

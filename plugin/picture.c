@@ -25,7 +25,7 @@ struct picture {
 static bool attempt(void (*function)(void *), void *argument, mjcf_error *error) {
   guard_report report;
   guard_call(&report, function, argument);
-  return !report.failed || mjcf_fail(error, "%s", report.error);
+  return !report.failed || guard_fail(error, &report);
 }
 
 static void prepare_scene(void *argument) {
@@ -49,8 +49,8 @@ static bool choose_camera(picture *p, const char *name, mjcf_error *error) {
 
 static bool allocate(picture *p, const mjModel *model) {
   size_t pixels = (size_t)p->size.width * (size_t)p->size.height;
-  p->model = mj_copyModel(NULL, model);
-  p->data = p->model ? mj_makeData(p->model) : NULL;
+  p->model = guard_copy_model(model);
+  p->data = p->model ? guard_make_data(p->model) : NULL;
   p->rgb = (unsigned char *)malloc(3 * pixels);
   p->png = (unsigned char *)malloc(3 * pixels / 4);
   p->depth = (float *)malloc(sizeof *p->depth * pixels);

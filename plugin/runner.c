@@ -46,8 +46,14 @@ static bool is_regular(const mjModel *model, mjData *data, mjcf_error *error) {
 // Takes the model, whatever comes.
 typedef bool find_map_function(runner_map *map, const mjModel *model, mjcf_error *error);
 
+// `model` is NULL where it could not be had, for the reason in `error`.
 static runner *create(mjModel *model, double rider_offset, find_map_function *find_map,
                       runner_status *status, mjcf_error *error) {
+  *status = RUNNER_MODEL;
+  if (!model) {
+    if (error->no_memory) *status = RUNNER_MEMORY;
+    return NULL;
+  }
   runner *r = (runner *)calloc(1, sizeof *r);
   if (!r) {
     mj_deleteModel(model);
@@ -59,12 +65,13 @@ static runner *create(mjModel *model, double rider_offset, find_map_function *fi
   r->rider_offset = rider_offset;
   *status = RUNNER_MODEL;
   if (!find_map(&r->map, model, error)) {
+    if (error->no_memory) *status = RUNNER_MEMORY;
     runner_free(r);
     return NULL;
   }
   model->opt.enableflags |= mjENBL_ENERGY;
-  r->ride = mj_makeData(model);
-  r->probe = mj_makeData(model);
+  r->ride = guard_make_data(model);
+  r->probe = guard_make_data(model);
   r->disc_count = roll_disc_count(model);
   r->discs = (roll_disc *)calloc((size_t)r->disc_count + 1, sizeof *r->discs);
   if (!r->ride || !r->probe || !r->discs) {
@@ -86,24 +93,21 @@ runner *runner_create(const bike_bicycle *bicycle, const mjcf_options *options,
   // What nobody sees costs a third of a step: every geom is moved at every stage.
   mjcf_options plain = *options;
   plain.visible = false;
-  *status = RUNNER_MODEL;
   runner_install_control(); // before the compiler, which steps the model once
   mjModel *model = mjcf_model(bicycle, &plain, NULL, error);
-  return model ? create(model, options->rider_offset, runner_find_map, status, error) : NULL;
+  return create(model, options->rider_offset, runner_find_map, status, error);
 }
 
 runner *runner_load(const char *path, runner_status *status, mjcf_error *error) {
-  *status = RUNNER_MODEL;
   runner_install_control();
   mjModel *model = mjcf_load(path, error);
-  return model ? create(model, 0, runner_find_map, status, error) : NULL;
+  return create(model, 0, runner_find_map, status, error);
 }
 
 runner *runner_import(const char *path, runner_status *status, mjcf_error *error) {
-  *status = RUNNER_MODEL;
   runner_install_control();
   mjModel *model = import_load_rolling(path, error);
-  return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
+  return create(model, 0, runner_find_foreign_map, status, error);
 }
 
 runner *runner_import_as_is(const char *path, runner_status *status, mjcf_error *error) {
@@ -111,7 +115,7 @@ runner *runner_import_as_is(const char *path, runner_status *status, mjcf_error 
   runner_install_control();
   mjModel *model = mjcf_load(path, error);
   if (!model || mj_name2id(model, mjOBJ_TUPLE, "rolling_discs") < 0)
-    return model ? create(model, 0, runner_find_foreign_map, status, error) : NULL;
+    return create(model, 0, runner_find_foreign_map, status, error);
   mj_deleteModel(model);
   mjcf_fail(error, "%s: its marker 'rolling_discs' makes the wheels roll exactly", path);
   return NULL;

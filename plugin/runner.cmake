@@ -32,10 +32,12 @@ add_library(mujoco_runner STATIC
   runner_ride.c
   runner_solve.c
   runner_start.c
-  runner_times.c)
+  runner_times.c
+  ${PROJECT_SOURCE_DIR}/src/motion/vector.c)
 target_include_directories(mujoco_runner PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(mujoco_runner
-  PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo PRIVATE SUNDIALS::cvode bicycle_options m)
+  PUBLIC bicycle::bicycle mujoco_rolling_static MuJoCo::MuJoCo
+  PRIVATE bicycle_document SUNDIALS::cvode ${CMAKE_DL_LIBS} bicycle_options m)
 
 # Pictures: in a target of its own, so that nothing else needs libpng, and nothing at all loads a GL
 # before the first picture.

@@ -11,8 +11,8 @@
 //---------------------------------- the model -----------------------------------------------------
 
 static bool allocate(runner_any *r) {
-  r->ride = mj_makeData(r->model);
-  r->probe = mj_makeData(r->model);
+  r->ride = guard_make_data(r->model);
+  r->probe = guard_make_data(r->model);
   r->disc_count = roll_disc_count(r->model);
   r->drive_count = roll_drive_count(r->model);
   r->discs = (roll_disc *)calloc((size_t)r->disc_count + 1, sizeof *r->discs);
@@ -33,7 +33,10 @@ static runner_any *create(mjModel *model) {
 runner_any *runner_any_load(const char *path, runner_status *status, mjcf_error *error) {
   *status = RUNNER_MODEL;
   mjModel *model = mjcf_load(path, error);
-  if (!model) return NULL;
+  if (!model) {
+    if (error->no_memory) *status = RUNNER_MEMORY;
+    return NULL;
+  }
   roll_error marker = runner_check_marker(model, error);
   if (marker != ROLL_OK) {
     mj_deleteModel(model);

@@ -18,7 +18,7 @@ const char *runner_status_string(runner_status status) {
 
 int runner_exit_code(runner_status status) {
   if (status == RUNNER_OK) return 0;
-  return status >= RUNNER_INVALID_ERROR ? 3 : 2;
+  return status == RUNNER_MEMORY || status >= RUNNER_INVALID_ERROR ? 3 : 2;
 }
 
 roll_error runner_check_marker(const mjModel *m, mjcf_error *error) {

@@ -7,8 +7,9 @@
 #include "runner_guard.h"
 #include "runner_internal.h"
 
+#include "motion/vector.h"
+
 #include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -79,23 +80,26 @@ static bool begin(runner_cvode *c, double tolerance) {
   const mjModel *m = c->r->model;
   const mjData *d = c->r->ride;
   if (SUNContext_Create(NULL, &c->context) != 0) return false;
-  c->y = N_VNew_Serial(m->nq + m->nv + 1, c->context);
-  c->memory = CVodeCreate(CV_ADAMS, c->context);
-  if (!c->y || !c->memory) return false;
+  c->y = vector_create(m->nq + m->nv + 1, c->context);
+  if (!c->y) return false;
   double *y = N_VGetArrayPointer(c->y);
   mju_copy(y, d->qpos, m->nq);
   mju_copy(y + m->nq, d->qvel, m->nv);
   y[m->nq + m->nv] = 0;
   c->solver = SUNNonlinSol_FixedPoint(c->y, 0, c->context);
+  void *memory = c->solver ? CVodeCreate(CV_ADAMS, c->context) : NULL;
+  // After a CVodeInit that ran out of memory, CVodeFree frees vectors twice (SUNDIALS 6.4): what
+  // little it holds is lost.
+  if (!memory || CVodeInit(memory, right_side, 0, c->y) != CV_SUCCESS) return false;
+  c->memory = memory;
   // Steps enough for a second of stiff contact between two rows.
   enum { MOST_STEPS = 1000000 };
-  return c->solver && CVodeInit(c->memory, right_side, 0, c->y) == CV_SUCCESS &&
-         CVodeSStolerances(c->memory, tolerance, tolerance) == CV_SUCCESS &&
+  return CVodeSStolerances(c->memory, tolerance, tolerance) == CV_SUCCESS &&
          CVodeSetNonlinearSolver(c->memory, c->solver) == CV_SUCCESS &&
          CVodeSetUserData(c->memory, c) == CV_SUCCESS &&
          CVodeSetMaxNumSteps(c->memory, MOST_STEPS) == CV_SUCCESS &&
          // What it has to say comes back as a status.
-         CVodeSetErrFile(c->memory, NULL) == CV_SUCCESS;
+         CVodeSetErrFile(c->memory, NULL) == CV_SUCCESS && !vector_ran_out(c->y);
 }
 
 runner_cvode *runner_cvode_create(runner *r, double tolerance) {
@@ -123,6 +127,10 @@ runner_status runner_cvode_advance(runner_cvode *c, double time, mjcf_error *err
   runner *before = runner_activate(r);
   int flag = CVode(c->memory, time, c->y, &reached, CV_NORMAL);
   runner_activate(before);
+  if (flag == CV_MEM_FAIL || vector_ran_out(c->y)) {
+    mjcf_fail(error, "%s", runner_status_string(RUNNER_MEMORY));
+    return RUNNER_MEMORY;
+  }
   if (flag < 0 && c->status != RUNNER_OK) {
     *error = c->error;
     return c->status;

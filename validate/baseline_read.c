@@ -5,7 +5,9 @@
 #include "files/text.h"
 #include "report.h"
 #include "report_read.h"
+#include "terminal/message.h"
 
+#include <bicycle/error.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -35,16 +37,18 @@ static size_t read_more(void *out, size_t size, void *user) {
 static term_exit load(json_t **out, const char *path, problem *p) {
   bike_file_error said;
   json_error_t error;
-  source s = {bike_text_open(path, &said), LARGEST_REPORT};
-  if (!s.stream)
+  source s = {NULL, LARGEST_REPORT};
+  int code = bike_text_open(&s.stream, path, &said);
+  if (code == BIKE_ERROR_MEMORY) return problem_memory(p);
+  if (code)
     return problem_set(p, bike_text_is_named_pipe(path) ? TERM_USAGE : TERM_BASELINE, "%s",
                        said.text);
   *out = json_load_callback(read_more, &s, JSON_REJECT_DUPLICATES, &error);
   fclose(s.stream);
+  if (term_has_lost()) return problem_memory(p); // it may lack something
   if (*out) return TERM_DONE;
   if (s.left == 0)
     return problem_set(p, TERM_BASELINE, "%s: is larger than %zu bytes", path, LARGEST_REPORT);
-  if (json_error_code(&error) == json_error_out_of_memory) return problem_memory(p);
   return problem_set(p, TERM_BASELINE, "%s:%d: %s", path, error.line, error.text);
 }
 

@@ -46,15 +46,17 @@ static term_exit write_baseline(const json_t *document, const char *path) {
   bike_output output;
   bike_file_error error;
   if (bike_text_is_named_pipe(path)) return term_fail(TERM_USAGE, "%s: is a named pipe", path);
-  if (bike_output_begin(&output, path, &error) != 0) return term_fail(TERM_USAGE, "%s", error.text);
-  bool written = json_dumpf(document, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0;
+  int code = bike_output_begin(&output, path, &error);
+  if (code) return term_fail(term_exit_of(code), "%s", error.text);
+  bool written = !term_has_lost() &&
+                 json_dumpf(document, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0;
   fputc('\n', output.stream);
   if (!written && !ferror(output.stream)) {
     bike_output_abort(&output);
     return term_fail(TERM_INVALID, "out of memory");
   }
-  if (bike_output_commit(&output, &error) != 0) return term_fail(TERM_USAGE, "%s", error.text);
-  return TERM_DONE;
+  code = bike_output_commit(&output, &error);
+  return code ? term_fail(term_exit_of(code), "%s", error.text) : TERM_DONE;
 }
 
 static term_exit bless(const char *path, const char *output) {

@@ -4,6 +4,7 @@
 
 #include "engine_differences.h"
 #include "files/sha256.h"
+#include "terminal/message.h"
 
 #include <bicycle_import.h>
 
@@ -111,7 +112,7 @@ static void *create(const bike_bicycle *bicycle, const engine_choice *choice, te
     return NULL;
   }
   runner_status status = RUNNER_OK;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   m->bicycle = *bicycle;
   m->options = choose(choice->option);
   m->options.moving_rider = choice->moving_rider;
@@ -131,6 +132,7 @@ static bool has_quaternion(const char *path) {
   mjcf_error error;
   mjModel *m = mjcf_load(path, &error);
   bool has = false;
+  if (!m) term_lose(); // it has been loaded before
   for (int i = 0; m && i < m->njnt; i++)
     has = has || m->jnt_type[i] == mjJNT_FREE || m->jnt_type[i] == mjJNT_BALL;
   if (m) mj_deleteModel(m);
@@ -171,6 +173,7 @@ static void model_hash(char out[ENGINE_HASH_SIZE], void *instance) {
     return;
   }
   char *text = mjcf_text(&m->bicycle, &m->options, NULL, &error);
+  if (!text) term_lose(); // it has been written before
   sha256_hex(out, text ? text : "", text ? strlen(text) : 0);
   free(text);
 }
@@ -181,13 +184,13 @@ static term_exit parameters(bike_bicycle *out, void *instance, problem *p) {
   if (!m->imported) return engine_mujoco_read_back(out, runner_model(m->run), p);
   // What was read from the file once is read from the model that is ridden.
   if (import_bicycle(out, NULL, runner_model(m->run), &error)) return TERM_DONE;
-  return problem_set(p, TERM_USAGE, "%s", error.text);
+  return fail(p, error.no_memory ? RUNNER_MEMORY : RUNNER_MODEL, &error);
 }
 
 static term_exit evaluate(engine_instant *out, void *instance, const bike_state *state,
                           problem *p) {
   runner_instant i;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_evaluate(&i, engine_mujoco_runner(instance), state, NULL, &error);
   if (status != RUNNER_OK) return fail(p, status, &error);
   *out = (engine_instant){
@@ -210,7 +213,7 @@ static term_exit evaluate(engine_instant *out, void *instance, const bike_state 
 }
 
 static term_exit mass_matrix(double M[9], void *instance, const bike_state *state, problem *p) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_mass_matrix(M, engine_mujoco_runner(instance), state, &error);
   return status == RUNNER_OK ? TERM_DONE : fail(p, status, &error);
 }
@@ -240,7 +243,7 @@ static void give_input(double time, bike_input *out, void *user) {
 static term_exit ride(trace *out, void *instance, const engine_ride *asked, problem *p) {
   runner *run = engine_mujoco_runner(instance);
   recorder r = {out, asked, false};
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_start(run, &asked->start, &error);
   if (status != RUNNER_OK) return fail(p, status, &error);
   runner_ride_def def = runner_default_ride_def();

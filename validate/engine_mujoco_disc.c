@@ -67,16 +67,17 @@ static char *write_model(const disc_body *b) {
 
 static term_exit compile(disc *d, const double *option, problem *p) {
   static const int integrator[] = {mjINT_RK4, mjINT_EULER, mjINT_IMPLICIT};
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   d->text = write_model(&d->body);
   if (!d->text) return problem_memory(p);
   runner_install_control(); // before the compiler, which steps the model once
   d->model = mjcf_compile(d->text, &error);
-  if (!d->model) return problem_set(p, TERM_USAGE, "%s", error.text);
+  if (!d->model)
+    return problem_set(p, error.no_memory ? TERM_INVALID : TERM_USAGE, "%s", error.text);
   d->model->opt.integrator = integrator[(int)option[OPTION_INTEGRATOR]];
   d->model->opt.timestep = option[OPTION_TIMESTEP];
-  d->ride = mj_makeData(d->model);
-  d->probe = mj_makeData(d->model);
+  d->ride = guard_make_data(d->model);
+  d->probe = guard_make_data(d->model);
   return d->ride && d->probe ? TERM_DONE : problem_memory(p);
 }
 

@@ -2,6 +2,7 @@
 // The bicycle's parameters out of a compiled model, by MuJoCo's own kinematics: nothing of what
 // made the model is used.
 #include "engine_mujoco.h"
+#include "runner_guard.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -82,7 +83,7 @@ term_exit engine_mujoco_read_back(bike_bicycle *out, const mjModel *model, probl
   reading r = {.m = model};
   term_exit code = find_names(&r, p);
   if (code != TERM_DONE) return code;
-  r.d = mj_makeData(model);
+  r.d = guard_make_data(model);
   if (!r.d) return problem_memory(p);
   mj_kinematics(model, r.d);
   *out = bike_default_bicycle();

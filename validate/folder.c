@@ -10,16 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static term_exit fail(const char *path, int number, problem *p) {
-  return problem_set(p, TERM_USAGE, "%s: %s", path, strerror(number));
-}
-
 // Whether a new folder can be made beside the target.
 static term_exit check_parent(const char *target, problem *p) {
   char *parent = term_place_parent(target);
   if (!parent) return problem_memory(p);
   int number = term_place_check_parent(parent);
-  term_exit code = number ? fail(parent, number, p) : TERM_DONE;
+  term_exit code = number ? problem_system(p, parent, number) : TERM_DONE;
   free(parent);
   return code;
 }
@@ -27,7 +23,7 @@ static term_exit check_parent(const char *target, problem *p) {
 static term_exit check_target(const char *target, problem *p) {
   struct stat status;
   if (lstat(target, &status) != 0)
-    return errno == ENOENT ? check_parent(target, p) : fail(target, errno, p);
+    return errno == ENOENT ? check_parent(target, p) : problem_system(p, target, errno);
   if (!S_ISDIR(status.st_mode))
     return problem_set(p, TERM_USAGE, "%s: is there and is not a folder", target);
   term_exit code = folder_content_check(target, p);
@@ -60,28 +56,25 @@ term_exit folder_begin(folder *out, const char *path, problem *p) {
   out->aside = out->target ? term_place_aside(out->target, "tmp") : NULL;
   if (out->aside) folder_content_remove(out->aside); // of a killed process with our number
   if (out->aside && mkdir(out->aside, 0777) == 0) return TERM_DONE;
-  code = out->aside ? fail(path, errno, p) : problem_memory(p);
+  code = out->aside ? problem_system(p, path, errno) : problem_memory(p);
   forget(out);
   return code;
 }
 
-FILE *folder_open(const folder *f, const char *name, problem *p) {
+term_exit folder_open(FILE **out, const folder *f, const char *name, problem *p) {
   char *path = NULL;
-  if (asprintf(&path, "%s/%s", f->aside, name) < 0) {
-    problem_memory(p);
-    return NULL;
-  }
-  FILE *stream = fopen(path, "wxe");
-  if (!stream) fail(name, errno, p);
+  if (asprintf(&path, "%s/%s", f->aside, name) < 0) return problem_memory(p);
+  *out = fopen(path, "wxe");
+  term_exit code = *out ? TERM_DONE : problem_system(p, name, errno);
   free(path);
-  return stream;
+  return code;
 }
 
 term_exit folder_close(FILE *stream, const char *name, problem *p) {
   errno = 0;
   bool failed = ferror(stream) != 0;
   failed |= fclose(stream) != 0;
-  return failed ? fail(name, errno ? errno : EIO, p) : TERM_DONE;
+  return failed ? problem_system(p, name, errno ? errno : EIO) : TERM_DONE;
 }
 
 static void remove_report(const char *path, const void *unused) {
@@ -92,7 +85,7 @@ static void remove_report(const char *path, const void *unused) {
 term_exit folder_commit(folder *f, problem *p) {
   term_exit code = check_target(f->target, p); // it may have changed meanwhile
   int number = code == TERM_DONE ? term_place_take(f->aside, f->target, remove_report, NULL) : 0;
-  if (number) code = fail(f->target, number, p);
+  if (number) code = problem_system(p, f->target, number);
   if (code != TERM_DONE) {
     folder_abort(f);
     return code;

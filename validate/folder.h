@@ -24,8 +24,8 @@ term_exit folder_check(const char *path, problem *p);
 // the program wait; it has one thread.
 term_exit folder_begin(folder *out, const char *path, problem *p);
 
-// Opens a new file in it; close it with folder_close. NULL on failure.
-FILE *folder_open(const folder *f, const char *name, problem *p);
+// Opens a new file in it; close it with folder_close.
+term_exit folder_open(FILE **out, const folder *f, const char *name, problem *p);
 term_exit folder_close(FILE *stream, const char *name, problem *p);
 
 term_exit folder_commit(folder *f, problem *p);

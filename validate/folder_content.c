@@ -43,7 +43,7 @@ static bool is_dot(const char *name) {
 
 term_exit folder_content_check(const char *path, problem *p) {
   DIR *folder = opendir(path);
-  if (!folder) return problem_set(p, TERM_USAGE, "%s: %s", path, strerror(errno));
+  if (!folder) return problem_system(p, path, errno);
   json_t *files = load_files(dirfd(folder));
   term_exit code = TERM_DONE;
   struct dirent *entry;

@@ -4,6 +4,7 @@
 #include "files/message.h"
 #include "files/text.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +21,11 @@ term_exit problem_set(problem *p, term_exit code, const char *format, ...) {
 
 term_exit problem_memory(problem *p) {
   return problem_set(p, TERM_INVALID, "out of memory");
+}
+
+term_exit problem_system(problem *p, const char *path, int number) {
+  if (number == ENOMEM) return problem_memory(p);
+  return problem_set(p, TERM_USAGE, "%s: %s", path, strerror(number));
 }
 
 term_exit problem_prefix(problem *p, term_exit code, const char *prefix) {

@@ -19,6 +19,9 @@ term_exit problem_set(problem *p, term_exit code, const char *format, ...)
 
 term_exit problem_memory(problem *p);
 
+// A system call failed, `number` being its errno: out of memory, or TERM_USAGE.
+term_exit problem_system(problem *p, const char *path, int number);
+
 // Puts "prefix: " before the text; returns `code`.
 term_exit problem_prefix(problem *p, term_exit code, const char *prefix);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "provenance.h"
 
+#include "files/memory_stream.h"
+
 #include <ctype.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +30,7 @@ static void print_quoted(FILE *stream, const char *text) {
 static char *command_line(char *const *arguments, int count) {
   char *text = NULL;
   size_t size;
-  FILE *stream = open_memstream(&text, &size);
+  FILE *stream = bike_memory_stream(&text, &size);
   if (!stream) return NULL;
   fputs("bicycle validate", stream);
   for (int i = 0; i < count; i++) {
@@ -39,31 +42,33 @@ static char *command_line(char *const *arguments, int count) {
   return NULL;
 }
 
-// The first "model name" of /proc/cpuinfo.
-static void read_cpu(char out[PROVENANCE_TEXT]) {
+// The first "model name" of /proc/cpuinfo. False when out of memory.
+static bool read_cpu(char out[PROVENANCE_TEXT]) {
   static const char key[] = "model name";
   char line[PROVENANCE_TEXT];
   snprintf(out, PROVENANCE_TEXT, "unknown");
   FILE *stream = fopen("/proc/cpuinfo", "re");
-  while (stream && fgets(line, sizeof line, stream)) {
+  if (!stream) return errno != ENOMEM;
+  while (fgets(line, sizeof line, stream)) {
     char *colon = strchr(line, ':');
     if (strncmp(line, key, strlen(key)) != 0 || !colon) continue;
     line[strcspn(line, "\n")] = '\0';
     snprintf(out, PROVENANCE_TEXT, "%s", colon + 1 + strspn(colon + 1, " "));
     break;
   }
-  if (stream) fclose(stream);
+  fclose(stream);
+  return true;
 }
 
 bool provenance_begin(provenance *out, char *const *arguments, int count) {
   time_t now = time(NULL);
   struct tm utc;
   *out = (provenance){.command = command_line(arguments, count)};
-  read_cpu(out->cpu);
+  bool known = read_cpu(out->cpu);
   if (!gmtime_r(&now, &utc) ||
       strftime(out->created, sizeof out->created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
     strcpy(out->created, "unknown");
-  return out->command != NULL;
+  return known && out->command != NULL;
 }
 
 void provenance_clear(provenance *out) {
@@ -87,13 +92,13 @@ static void print_numbers(FILE *stream, const char *name, const double *values, 
   fputc('\n', stream);
 }
 
-void provenance_bicycle_hash(char out[SHA256_HEX_SIZE], const bike_bicycle *b) {
+bool provenance_bicycle_hash(char out[SHA256_HEX_SIZE], const bike_bicycle *b) {
   char *text = NULL;
   size_t size = 0;
   const bike_geometry *g = &b->geometry;
   out[0] = '\0';
-  FILE *stream = open_memstream(&text, &size);
-  if (!stream) return;
+  FILE *stream = bike_memory_stream(&text, &size);
+  if (!stream) return false;
   print_numbers(stream, "geometry", (const double[]){g->L_r, g->L_f, g->L_s, g->R_r, g->R_f}, 5);
   print_numbers(stream, "gravity", &b->gravity, 1);
   print_numbers(stream, "steer_damping", &b->steer_damping, 1);
@@ -104,6 +109,8 @@ void provenance_bicycle_hash(char out[SHA256_HEX_SIZE], const bike_bicycle *b) {
     print_numbers(stream, "position", part->position, 3);
     print_numbers(stream, "inertia", part->inertia, 6);
   }
-  if (fclose(stream) == 0) sha256_hex(out, text, size);
+  bool whole = fclose(stream) == 0;
+  if (whole) sha256_hex(out, text, size);
   free(text);
+  return whole;
 }

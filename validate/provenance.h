@@ -24,6 +24,6 @@ void provenance_clear(provenance *out);
 const char *provenance_compiler(void);
 
 // Hash of every number of a bicycle; names do not count.
-void provenance_bicycle_hash(char out[SHA256_HEX_SIZE], const bike_bicycle *bicycle);
+bool provenance_bicycle_hash(char out[SHA256_HEX_SIZE], const bike_bicycle *bicycle);
 
 #endif

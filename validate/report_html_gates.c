@@ -4,6 +4,7 @@
 
 #include "report_markup.h"
 #include "report_read.h"
+#include "terminal/message.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,10 @@ static size_t number_of(report_reasons *reasons, const char *text) {
   for (size_t i = 0; i < reasons->count; i++)
     if (strcmp(reasons->items[i], text) == 0) return i + 1;
   const char **items = realloc(reasons->items, (reasons->count + 1) * sizeof *items);
-  if (!items) return 0;
+  if (!items) {
+    term_lose();
+    return 0;
+  }
   reasons->items = items;
   items[reasons->count++] = text;
   return reasons->count;

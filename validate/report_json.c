@@ -8,6 +8,7 @@
 #include "report_json_layers.h"
 #include "terminal/command.h"
 #include "terminal/json.h"
+#include "terminal/message.h"
 
 #include <math.h>
 #include <string.h>
@@ -140,7 +141,7 @@ static json_t *setup_json(const comparison *c) {
 static json_t *scenario_json(const comparison *c) {
   const scenario *s = c->scenario;
   char hash[SHA256_HEX_SIZE], files[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME];
-  provenance_bicycle_hash(hash, &s->bicycle);
+  if (!provenance_bicycle_hash(hash, &s->bicycle)) return NULL;
   report_file_names(files, c);
   json_t *engines = json_array();
   json_array_append_new(engines, engine_json(&c->side[REFERENCE], &s->reference, "reference"));
@@ -194,10 +195,14 @@ json_t *report_document(const report *r) {
   json_t *scenarios = json_array();
   for (size_t i = 0; i < r->count; i++)
     json_array_append_new(scenarios, scenario_json(&r->comparisons[i]));
-  return json_pack("{s:s, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "schema", REPORT_SCHEMA,
-                   "version", REPORT_VERSION, "verdict", verdict_string(report_verdict(r)),
-                   "first_failure", first_failure_json(failure), "cause",
-                   text_or_null(failure ? failure->cause : NULL), "counts",
-                   report_counts(scenarios), "scenarios", scenarios, "provenance",
-                   provenance_json(r), "files", files_json(r));
+  const bool whole = json_array_size(scenarios) == r->count;
+  json_t *document =
+      json_pack("{s:s, s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "schema", REPORT_SCHEMA, "version",
+                REPORT_VERSION, "verdict", verdict_string(report_verdict(r)), "first_failure",
+                first_failure_json(failure), "cause", text_or_null(failure ? failure->cause : NULL),
+                "counts", report_counts(scenarios), "scenarios", scenarios, "provenance",
+                provenance_json(r), "files", files_json(r));
+  if (whole && !term_has_lost()) return document;
+  json_decref(document);
+  return NULL;
 }

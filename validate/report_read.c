@@ -2,6 +2,7 @@
 #include "report_read.h"
 
 #include "baseline.h"
+#include "terminal/message.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -74,7 +75,11 @@ static int by_margin(const void *a, const void *b) {
 report_gate *report_gates_by_margin(const json_t *entry, size_t *count) {
   *count = report_count(entry, "gates");
   report_gate *gates = calloc(*count + 1, sizeof *gates);
-  if (!gates) return NULL;
+  if (!gates) {
+    term_lose();
+    *count = 0;
+    return NULL;
+  }
   for (size_t i = 0; i < *count; i++) gates[i] = report_gate_at(entry, i);
   qsort(gates, *count, sizeof *gates, by_margin);
   return gates;

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_series.h"
 
+#include "terminal/message.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 static report_series of_size(size_t count) {
   report_series s = {calloc(count + 1, sizeof *s.value), count};
-  if (!s.value) s.count = 0;
+  if (!s.value) {
+    term_lose();
+    s.count = 0;
+  }
   return s;
 }
 

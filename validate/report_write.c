@@ -3,6 +3,7 @@
 
 #include "folder.h"
 #include "report_views.h"
+#include "terminal/message.h"
 
 void report_file_names(char out[REPORT_FILES_PER_SCENARIO][REPORT_FILE_NAME], const comparison *c) {
   const char *const what[REPORT_FILES_PER_SCENARIO] = {c->side[REFERENCE].label,
@@ -23,8 +24,9 @@ static term_exit write_scenario(const folder *f, const comparison *c, problem *p
   term_exit code = TERM_DONE;
   report_file_names(names, c);
   for (int i = 0; i < REPORT_FILES_PER_SCENARIO && code == TERM_DONE; i++) {
-    FILE *stream = folder_open(f, names[i], p);
-    if (!stream) return TERM_USAGE;
+    FILE *stream;
+    code = folder_open(&stream, f, names[i], p);
+    if (code != TERM_DONE) return code;
     write_csv(c, i, stream);
     code = folder_close(stream, names[i], p);
   }
@@ -53,10 +55,12 @@ const char *report_view_name(int index) {
 static term_exit write_view(const folder *f, const report *r, const json_t *document, int index,
                             problem *p) {
   const char *name = views[index].name;
-  FILE *stream = folder_open(f, name, p);
-  if (!stream) return TERM_USAGE;
-  bool written = views[index].write(r, document, stream) || ferror(stream);
-  term_exit code = folder_close(stream, name, p);
+  FILE *stream;
+  term_exit code = folder_open(&stream, f, name, p);
+  if (code != TERM_DONE) return code;
+  bool whole = views[index].write(r, document, stream) && !term_has_lost();
+  bool written = whole || ferror(stream);
+  code = folder_close(stream, name, p);
   return code != TERM_DONE || written ? code : problem_memory(p);
 }
 

@@ -36,12 +36,14 @@ static bool is_model(const char *path) {
 // A MuJoCo model: the bicycle is read out of it.
 static int read_model(scenario *s, const bike_yaml *yaml, const bike_field *field,
                       const char *path) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *model = mjcf_load(path, &error);
   bool found = model && import_bicycle(&s->bicycle, NULL, model, &error);
   if (found) import_stops(s->stops, sizeof s->stops, model);
   if (model) mj_deleteModel(model);
-  if (!found) return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%s: %s", path, error.text);
+  if (!found)
+    return bike_yaml_fail(yaml, field, error.no_memory ? BIKE_ERROR_MEMORY : BIKE_ERROR_PARAMETER,
+                          "%s: %s", path, error.text);
   snprintf(s->model_path, sizeof s->model_path, "%s", path);
   return BIKE_OK;
 }

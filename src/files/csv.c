@@ -60,7 +60,7 @@ static int refill(bike_csv_reader *r, bike_file_error *error) {
   if (code) return code;
   r->end += fread(r->buffer + r->end, 1, r->size - r->end, r->stream);
   r->at_end = feof(r->stream);
-  return ferror(r->stream) ? bike_text_system_error(r->path, errno, error) : BIKE_OK;
+  return ferror(r->stream) ? bike_message_system(error, r->path, errno) : BIKE_OK;
 }
 
 // Takes a line as it is, without its end; false where more has to be read or nothing is left.
@@ -138,8 +138,8 @@ int bike_csv_open(bike_csv_reader *out, const char *path, bike_file_error *error
   *out = (bike_csv_reader){.path = strdup(path), .buffer = malloc(FIRST_SIZE), .size = FIRST_SIZE};
   if (!out->path || !out->buffer)
     return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
-  out->stream = bike_text_open(path, error);
-  return out->stream ? read_header(out, error) : BIKE_ERROR_FILE;
+  int code = bike_text_open(&out->stream, path, error);
+  return code ? code : read_header(out, error);
 }
 
 int bike_csv_next(double *row, bool *found, bike_csv_reader *r, bike_file_error *error) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "message.h"
 
+#include <bicycle/error.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +42,11 @@ int bike_message(bike_file_error *error, int code, const char *format, ...) {
   for (char *c = error->text; *c; ++c)
     if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
   return code;
+}
+
+int bike_message_system(bike_file_error *error, const char *path, int number) {
+  if (number == ENOMEM) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
+  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
 }
 
 int bike_message_at(bike_file_error *error, int code, const char *path, int line, const char *key,

@@ -17,6 +17,10 @@ void bike_message_fit(char *out, size_t size, const char *format, va_list argume
 int bike_message(bike_file_error *error, int code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+// "path: " and what the number of an errno means: BIKE_ERROR_MEMORY for ENOMEM, else
+// BIKE_ERROR_FILE.
+int bike_message_system(bike_file_error *error, const char *path, int number);
+
 // "path:line: key: what", or "path:line: what" without a key, or "path: what" for line 0.
 int bike_message_at(bike_file_error *error, int code, const char *path, int line, const char *key,
                     const char *what);

@@ -23,10 +23,6 @@ static const char *shown(const bike_output *out) {
   return out->target ? out->target : "standard output";
 }
 
-static int fail(const char *path, int number, bike_file_error *error) {
-  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
-}
-
 static void release(bike_output *out) {
   free(out->target);
   free(out->temporary);
@@ -128,8 +124,7 @@ int bike_output_begin(bike_output *out, const char *path, bike_file_error *error
   const int number = open_target(out, path);
   if (!number) return BIKE_OK;
   bike_output_abort(out);
-  if (number == ENOMEM) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
-  return fail(path, number, error);
+  return bike_message_system(error, path, number);
 }
 
 // Names the finished nameless file; a leftover of the same name is stepped over.
@@ -178,9 +173,9 @@ int bike_output_commit(bike_output *out, bike_file_error *error) {
     release(out);
     return BIKE_OK;
   }
-  fail(shown(out), number, error);
+  const int code = bike_message_system(error, shown(out), number);
   bike_output_abort(out);
-  return BIKE_ERROR_FILE;
+  return code;
 }
 
 void bike_output_abort(bike_output *out) {

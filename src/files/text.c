@@ -27,10 +27,6 @@ static int too_large(const char *path, size_t limit, bike_file_error *error) {
   return bike_message(error, BIKE_ERROR_FILE, "%s: is larger than %zu bytes", path, limit);
 }
 
-int bike_text_system_error(const char *path, int number, bike_file_error *error) {
-  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
-}
-
 static bool is_control(char c) {
   return ((unsigned char)c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
 }
@@ -115,7 +111,7 @@ static int read_stream(bike_text *out, FILE *stream, const char *path, size_t li
     const int line = control_line(out, from);
     if (line) return bike_message_at(error, BIKE_ERROR_SYNTAX, path, line, NULL, not_text);
     if (out->size > limit) return too_large(path, limit, error);
-    if (ferror(stream)) return bike_text_system_error(path, errno, error);
+    if (ferror(stream)) return bike_message_system(error, path, errno);
     if (feof(stream)) return BIKE_OK;
   }
 }
@@ -149,22 +145,20 @@ static FILE *open_at_once(const char *path) {
   return stream;
 }
 
-FILE *bike_text_open(const char *path, bike_file_error *error) {
+int bike_text_open(FILE **out, const char *path, bike_file_error *error) {
   struct stat status;
-  if (bike_text_is_named_pipe(path)) {
-    bike_message(error, BIKE_ERROR_FILE,
-                 "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
-    return NULL;
-  }
-  FILE *stream = open_at_once(path);
+  if (bike_text_is_named_pipe(path))
+    return bike_message(error, BIKE_ERROR_FILE,
+                        "%s: is a named pipe; give a file, or its text on /dev/stdin", path);
+  *out = open_at_once(path);
   int number = errno;
-  if (stream && fstat(fileno(stream), &status) == 0 && !S_ISDIR(status.st_mode)) return stream;
-  if (stream) {
+  if (*out && fstat(fileno(*out), &status) == 0 && !S_ISDIR(status.st_mode)) return BIKE_OK;
+  if (*out) {
     number = EISDIR;
-    fclose(stream);
+    fclose(*out);
+    *out = NULL;
   }
-  bike_text_system_error(path, number, error);
-  return NULL;
+  return bike_message_system(error, path, number);
 }
 
 const char *bike_text_objection(const char *data, size_t size) {
@@ -178,13 +172,13 @@ const char *bike_text_objection(const char *data, size_t size) {
 
 int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_error *error) {
   *out = (bike_text){0};
-  FILE *stream = bike_text_open(path, error);
+  FILE *stream = NULL;
   struct stat status;
-  if (!stream) return BIKE_ERROR_FILE;
+  int code = bike_text_open(&stream, path, error);
+  if (code) return code;
   bool regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
-  int code = regular && (size_t)status.st_size > limit
-                 ? too_large(path, limit, error)
-                 : read_stream(out, stream, path, limit, error);
+  code = regular && (size_t)status.st_size > limit ? too_large(path, limit, error)
+                                                   : read_stream(out, stream, path, limit, error);
   fclose(stream);
   if (!code) code = check_utf8(out, path, error);
   if (code)

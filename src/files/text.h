@@ -21,9 +21,9 @@ int bike_text_read(bike_text *out, const char *path, size_t limit, bike_file_err
 
 void bike_text_free(bike_text *text);
 
-// Opens a file for reading; folders and named pipes are refused. NULL is BIKE_ERROR_FILE. This is
+// Opens a file for reading; folders and named pipes are refused. This is
 // the one rule of all inputs: what the shell has opened (/dev/stdin, <(command)) is read.
-FILE *bike_text_open(const char *path, bike_file_error *error);
+int bike_text_open(FILE **out, const char *path, bike_file_error *error);
 
 // Whether `path` is a pipe that opening might wait for.
 bool bike_text_is_named_pipe(const char *path);
@@ -38,8 +38,5 @@ size_t bike_text_character(const char *data, size_t left);
 // Copies what fits of a name from anywhere: whole characters; what is none, or a control character,
 // becomes '?'. `out` has room for `size` bytes, the terminator among them.
 void bike_text_name(char *out, size_t size, const char *text, size_t length);
-
-// BIKE_ERROR_FILE with "path: " and what the number of an errno means.
-int bike_text_system_error(const char *path, int number, bike_file_error *error);
 
 #endif

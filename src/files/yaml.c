@@ -94,6 +94,10 @@ bool bike_yaml_find(struct fy_node *mapping, const char *key, bike_field *out) {
   return false;
 }
 
+static int no_memory(const bike_yaml *yaml) {
+  return bike_message(yaml->error, BIKE_ERROR_MEMORY, "%s: out of memory", yaml->path);
+}
+
 static const char *forbidden(struct fy_node *node) {
   if (fy_node_is_alias(node)) return "aliases are not accepted";
   if (fy_node_get_anchor(node)) return "anchors are not accepted";
@@ -103,12 +107,28 @@ static const char *forbidden(struct fy_node *node) {
 
 static int check_plain(const bike_yaml *yaml, bike_field where, int depth);
 
+// libfyaml makes the text of a scalar when first asked for it and keeps it; where it finds no
+// memory the text is empty. Asked for here, before anybody reads it. (A text in double quotes may
+// be empty though something is written.)
+static int take_text(const bike_yaml *yaml, struct fy_node *node) {
+  if (!node || !fy_node_is_scalar(node) || fy_node_is_alias(node)) return BIKE_OK;
+  struct fy_token *token = fy_node_get_scalar_token(node);
+  const char *text = token ? fy_token_get_text0(token) : NULL;
+  if (!token || (text && *text)) return BIKE_OK;
+  const enum fy_node_style style = fy_node_get_style(node);
+  const bool shown = style == FYNS_PLAIN || style == FYNS_SINGLE_QUOTED;
+  const struct fy_mark *begin = fy_token_start_mark(token), *end = fy_token_end_mark(token);
+  const bool written = begin && end && end->input_pos > begin->input_pos;
+  return shown && written ? no_memory(yaml) : BIKE_OK;
+}
+
 static int check_mapping(const bike_yaml *yaml, const bike_field *where, int depth) {
   void *cursor = NULL;
   struct fy_node_pair *pair;
   bike_field field = *where;
   while ((pair = fy_node_mapping_iterate(where->value, &cursor))) {
     struct fy_node *key = fy_node_pair_key(pair);
+    if (take_text(yaml, key)) return BIKE_ERROR_MEMORY;
     if (!key || !fy_node_is_scalar(key) || fy_node_is_alias(key) || !fy_node_get_scalar0(key))
       return bike_yaml_fail(yaml, &field, BIKE_ERROR_SYNTAX, "a key must be text");
     field = (bike_field){fy_node_get_scalar0(key), line_of(key), fy_node_pair_value(pair),
@@ -138,17 +158,17 @@ static int check_plain(const bike_yaml *yaml, bike_field where, int depth) {
     return bike_yaml_fail(yaml, &where, BIKE_ERROR_SYNTAX, "more than %d levels", DEEPEST);
   const char *what = forbidden(where.value);
   if (what) return bike_yaml_fail(yaml, &where, BIKE_ERROR_SYNTAX, "%s", what);
+  if (take_text(yaml, where.value)) return BIKE_ERROR_MEMORY;
   if (fy_node_is_mapping(where.value)) return check_mapping(yaml, &where, depth + 1);
   if (fy_node_is_sequence(where.value)) return check_list(yaml, where, depth + 1);
   return BIKE_OK;
 }
 
-// libfyaml's own complaint, or ours where it has none.
+// libfyaml's own complaint. Where it has none, memory was probably short.
 static int parse_error(const bike_yaml *yaml) {
   void *cursor = NULL;
   const struct fy_diag_error *first = fy_diag_errors_iterate(yaml->diagnostics, &cursor);
-  if (!first)
-    return bike_message_at(yaml->error, BIKE_ERROR_SYNTAX, yaml->path, 0, NULL, "is not YAML");
+  if (!first || !first->msg) return no_memory(yaml);
   if (yaml->columns && first->line > 0)
     return bike_message(yaml->error, BIKE_ERROR_SYNTAX, "%s:%d:%d: %s", yaml->path, first->line,
                         first->column, first->msg);
@@ -166,8 +186,21 @@ static struct fy_parser *create_parser(struct fy_diag *diagnostics, const bike_t
   return NULL;
 }
 
-static int check_document(bike_yaml *yaml) {
+// Whether there is more than comments, blanks and marks of documents. Of such a text libfyaml makes
+// a document, has a complaint, or has probably found no memory.
+static bool says_something(const bike_text *text) {
+  for (const char *line = text->data; line && *line; line += *line == '\n') {
+    line += strspn(line, " \t\r");
+    if (!strchr("#%\n", *line) && strncmp(line, "---", 3) != 0 && strncmp(line, "...", 3) != 0)
+      return true;
+    line += strcspn(line, "\n");
+  }
+  return false;
+}
+
+static int check_document(bike_yaml *yaml, const bike_text *text) {
   if (fy_parser_get_stream_error(yaml->parser)) return parse_error(yaml);
+  if (!yaml->document && says_something(text)) return no_memory(yaml);
   yaml->root = yaml->document ? fy_document_root(yaml->document) : NULL;
   if (!yaml->root) return bike_yaml_fail(yaml, NULL, BIKE_ERROR_SYNTAX, "the file is empty");
   struct fy_document *second = fy_parse_load_document(yaml->parser);
@@ -193,14 +226,27 @@ static struct fy_diag *create_diagnostics(void) {
   return diagnostics;
 }
 
+static int parse(bike_yaml *out, const bike_text *text) {
+  out->diagnostics = create_diagnostics();
+  if (out->diagnostics) out->parser = create_parser(out->diagnostics, text);
+  if (!out->parser) return no_memory(out);
+  out->document = fy_parse_load_document(out->parser);
+  return check_document(out, text);
+}
+
+// Where libfyaml seems to have run out of memory it is asked again: if it fails alike, it is the
+// text, about which it merely says nothing ("%YAML 9.9").
 static int open_text(bike_yaml *out, const bike_text *text, const char *path, bool columns,
                      bike_file_error *error) {
-  *out = (bike_yaml){
-      .path = path, .error = error, .columns = columns, .diagnostics = create_diagnostics()};
-  if (out->diagnostics) out->parser = create_parser(out->diagnostics, text);
-  if (!out->parser) return bike_message(error, BIKE_ERROR_MEMORY, "%s: out of memory", path);
-  out->document = fy_parse_load_document(out->parser);
-  return check_document(out);
+  const bike_yaml fresh = {.path = path, .error = error, .columns = columns};
+  *out = fresh;
+  int code = parse(out, text);
+  if (code != BIKE_ERROR_MEMORY || !out->parser) return code;
+  bike_yaml_close(out);
+  *out = fresh;
+  code = parse(out, text);
+  if (code != BIKE_ERROR_MEMORY || !out->parser) return code;
+  return bike_message_at(error, BIKE_ERROR_SYNTAX, path, 0, NULL, "is not YAML");
 }
 
 int bike_yaml_open(bike_yaml *out, const bike_text *text, const char *path,

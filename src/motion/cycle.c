@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shooting: unknowns are steer and its rate at the largest lean, half the period, and the speed
 // that gives the energy.
+#include "motion/lapack.h"
+
 #include <bicycle/cycle.h>
 
 #include <bicycle/error.h>
 #include <bicycle/stability.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -87,11 +88,9 @@ static int improve(double y[UNKNOWNS], double *residual, const shot *s) {
     *residual = largest(f);
     if (*residual <= CLOSED) return BIKE_OK;
     double J[HALF_SIZE * UNKNOWNS];
-    lapack_int pivot[UNKNOWNS];
     code = slopes(J, s, y);
     if (code) return code;
-    if (LAPACKE_dgesv(LAPACK_ROW_MAJOR, UNKNOWNS, 1, J, UNKNOWNS, pivot, f, 1))
-      return BIKE_ERROR_NO_CONVERGENCE;
+    if (!lapack_solve(f, J, UNKNOWNS)) return BIKE_ERROR_NO_CONVERGENCE;
     for (int j = 0; j < UNKNOWNS; j++) y[j] -= f[j];
     code = is_far(y, guess) ? BIKE_ERROR_NO_CONVERGENCE : miss(f, s, y);
   }
@@ -116,8 +115,7 @@ static int find_multiplier(double *out, const shot *s, const double y[UNKNOWNS])
     if (code) return code;
     for (int i = 0; i < HALF_SIZE; i++) J[i * HALF_SIZE + j] = (above[i] - below[i]) / (2 * h);
   }
-  if (LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'N', HALF_SIZE, J, HALF_SIZE, re, im, NULL, 1, NULL, 1))
-    return BIKE_ERROR_NO_CONVERGENCE;
+  if (!lapack_eigenvalues(re, im, NULL, J, HALF_SIZE)) return BIKE_ERROR_NO_CONVERGENCE;
   int trivial = 0;
   for (int i = 1; i < HALF_SIZE; i++)
     if (hypot(re[i] - 1, im[i]) < hypot(re[trivial] - 1, im[trivial])) trivial = i;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "motion/lapack.h"
+
 #include <bicycle/error.h>
 #include <bicycle/modes.h>
 #include <complex.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -73,8 +74,7 @@ int bike_modes_of(bike_modes *out, const double A[16]) {
   double copy[SIZE * SIZE], re[SIZE], im[SIZE], V[SIZE * SIZE];
   for (int i = 0; i < SIZE * SIZE; i++)
     if (!isfinite(copy[i] = A[i])) return BIKE_ERROR_NOT_FINITE;
-  if (LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', SIZE, copy, SIZE, re, im, NULL, 1, V, SIZE))
-    return BIKE_ERROR_NO_CONVERGENCE;
+  if (!lapack_eigenvalues(re, im, V, copy, SIZE)) return BIKE_ERROR_NO_CONVERGENCE;
   single modes[SIZE];
   for (int k = 0; k < SIZE; k++) {
     modes[k].re = re[k];

@@ -92,6 +92,7 @@ static int take_step(ride *r, double limit, double stop) {
   int failed = r->method->step(r->integrator, &r->end, limit);
   if (!failed) failed = ride_look(&r->end_view, &r->end, &r->flow);
   if (r->flow.fatal) return r->flow.error;
+  if (failed == BIKE_ERROR_MEMORY) return BIKE_ERROR_MEMORY;
   if (!failed) {
     r->out->steps++;
     return stalled(r) ? BIKE_ERROR_SOLVER : BIKE_OK;
@@ -202,7 +203,8 @@ static void next_stretch(ride *r) {
 // Stands at the start or at a breakpoint: goes on with the input that holds from here.
 static int enter_stretch(ride *r) {
   next_stretch(r);
-  if (r->method->restart(r->integrator, &r->now)) return BIKE_ERROR_SOLVER;
+  int failed = r->method->restart(r->integrator, &r->now);
+  if (failed) return failed == BIKE_ERROR_MEMORY ? BIKE_ERROR_MEMORY : BIKE_ERROR_SOLVER;
   r->begin = r->end = r->now;
   bike_snapshot view;
   if (ride_look(&view, &r->now, &r->flow)) return r->flow.error;

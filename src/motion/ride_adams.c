@@ -26,14 +26,18 @@ static void adams_free(void *self) {
 }
 
 static int set_up(adams *a, const ride_point *start) {
-  void *m = a->memory = CVodeCreate(CV_ADAMS, a->sun.context);
   a->solver = SUNNonlinSol_FixedPoint(a->sun.y, 0, a->sun.context);
-  if (!m || !a->solver) return BIKE_ERROR_MEMORY;
-  bool failed = CVodeSetErrHandlerFn(m, ride_sundials_quiet, NULL) ||
-                CVodeInit(m, ride_sundials_rates, start->t, a->sun.y) ||
-                CVodeSetUserData(m, &a->sun) || CVodeWFtolerances(m, ride_sundials_weights) ||
+  void *m = a->solver ? CVodeCreate(CV_ADAMS, a->sun.context) : NULL;
+  if (!m) return BIKE_ERROR_MEMORY;
+  // After a CVodeInit that ran out of memory, CVodeFree frees vectors twice (SUNDIALS 6.4): what
+  // little it holds is lost.
+  if (CVodeSetErrHandlerFn(m, ride_sundials_quiet, NULL) ||
+      CVodeInit(m, ride_sundials_rates, start->t, a->sun.y))
+    return BIKE_ERROR_MEMORY;
+  a->memory = m;
+  bool failed = CVodeSetUserData(m, &a->sun) || CVodeWFtolerances(m, ride_sundials_weights) ||
                 CVodeSetNonlinearSolver(m, a->solver) || CVodeSetMaxNumSteps(m, -1);
-  return failed ? BIKE_ERROR_MEMORY : BIKE_OK;
+  return failed || vector_ran_out(a->sun.y) ? BIKE_ERROR_MEMORY : BIKE_OK;
 }
 
 static int adams_create(void **out, const bike_ride_def *def, const ride_point *start,
@@ -52,7 +56,7 @@ static int adams_create(void **out, const bike_ride_def *def, const ride_point *
 static int adams_restart(void *self, const ride_point *from) {
   adams *a = self;
   ride_sundials_put(&a->sun, from);
-  return CVodeReInit(a->memory, from->t, a->sun.y);
+  return ride_sundials_code(&a->sun, CVodeReInit(a->memory, from->t, a->sun.y));
 }
 
 static int adams_step(void *self, ride_point *at, double limit) {
@@ -60,9 +64,8 @@ static int adams_step(void *self, ride_point *at, double limit) {
   double t;
   int code = CVodeSetStopTime(a->memory, limit);
   if (!code) code = CVode(a->memory, limit, a->sun.y, &t, CV_ONE_STEP);
-  if (code < 0) return code;
-  ride_sundials_get(at, &a->sun, t);
-  return 0;
+  if (code >= 0) ride_sundials_get(at, &a->sun, t);
+  return ride_sundials_code(&a->sun, code);
 }
 
 static int adams_inside(ride_point *out, void *self, double t) {

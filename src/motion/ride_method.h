@@ -12,10 +12,11 @@ typedef struct ride_method {
   // A new integrator standing at `start`. 0 or BIKE_ERROR_MEMORY.
   int (*create)(void **out, const bike_ride_def *def, const ride_point *start, ride_flow *flow);
   void (*free)(void *self);
-  // Forgets the past and goes on from `from`: a jump of the inputs. 0 or nonzero.
+  // Forgets the past and goes on from `from`: a jump of the inputs. 0, BIKE_ERROR_MEMORY, or
+  // anything else.
   int (*restart)(void *self, const ride_point *from);
-  // One step from *at, where the last one ended, not beyond `limit`. 0 or nonzero; the reason, when
-  // the equations gave it, is in the flow.
+  // One step from *at, where the last one ended, not beyond `limit`. 0, BIKE_ERROR_MEMORY, or
+  // anything else: the reason, when the equations gave it, is then in the flow.
   int (*step)(void *self, ride_point *at, double limit);
   // The state at t inside the last step, as accurate as its end; NULL for one-step methods, which
   // are made to stop wherever they are looked at.

@@ -47,7 +47,7 @@ static int set_up(rk8 *r) {
                 ARKStepSetInterpolantDegree(m, 1) ||
                 ARKStepWFtolerances(m, ride_sundials_weights) || ARKStepSetMaxNumSteps(m, -1);
   ARKodeButcherTable_Free(table);
-  return failed ? BIKE_ERROR_MEMORY : BIKE_OK;
+  return failed || vector_ran_out(r->sun.y) ? BIKE_ERROR_MEMORY : BIKE_OK;
 }
 
 static int rk8_create(void **out, const bike_ride_def *def, const ride_point *start,
@@ -69,7 +69,7 @@ static int rk8_create(void **out, const bike_ride_def *def, const ride_point *st
 static int rk8_restart(void *self, const ride_point *from) {
   rk8 *r = self;
   ride_sundials_put(&r->sun, from);
-  return ARKStepReset(r->memory, from->t, r->sun.y);
+  return ride_sundials_code(&r->sun, ARKStepReset(r->memory, from->t, r->sun.y));
 }
 
 static int rk8_step(void *self, ride_point *at, double limit) {
@@ -77,9 +77,8 @@ static int rk8_step(void *self, ride_point *at, double limit) {
   double t;
   int code = ARKStepSetStopTime(r->memory, limit);
   if (!code) code = ARKStepEvolve(r->memory, limit, r->sun.y, &t, ARK_ONE_STEP);
-  if (code < 0) return code;
-  ride_sundials_get(at, &r->sun, t);
-  return 0;
+  if (code >= 0) ride_sundials_get(at, &r->sun, t);
+  return ride_sundials_code(&r->sun, code);
 }
 
 const ride_method RIDE_METHOD_RK8 = {.adaptive = true,

@@ -31,6 +31,12 @@ void ride_sundials_get(ride_point *out, const ride_sundials *s, double t) {
   memcpy(out->y, s->data, sizeof s->data);
 }
 
+int ride_sundials_code(const ride_sundials *s, int code) {
+  const int no_memory = -20; // ARK_MEM_FAIL, CV_MEM_FAIL
+  if (code == no_memory || vector_ran_out(s->y)) return BIKE_ERROR_MEMORY;
+  return code < 0 ? code : BIKE_OK;
+}
+
 int ride_sundials_rates(realtype t, N_Vector y, N_Vector dy, void *user) {
   const ride_sundials *s = user;
   int failed = ride_rates(NV_DATA_S(dy), t, NV_DATA_S(y), s->flow);

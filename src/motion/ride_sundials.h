@@ -4,8 +4,7 @@
 #define BICYCLE_MOTION_RIDE_SUNDIALS_H
 
 #include "motion/ride_flow.h"
-
-#include <nvector/nvector_serial.h>
+#include "motion/vector.h"
 
 typedef struct ride_sundials {
   SUNContext context;
@@ -22,6 +21,10 @@ void ride_sundials_close(ride_sundials *s);
 
 void ride_sundials_put(ride_sundials *s, const ride_point *from);
 void ride_sundials_get(ride_point *out, const ride_sundials *s, double t);
+
+// What a call of SUNDIALS means: 0, or BIKE_ERROR_MEMORY, or its own negative code. A vector that
+// could not be had is a call that failed.
+int ride_sundials_code(const ride_sundials *s, int code);
 
 // SUNDIALS' right-hand side; user data is a ride_sundials, here and below. Positive: try a shorter
 // step; negative: give up.

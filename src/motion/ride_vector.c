@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "motion/ride_flow.h"
+#include "motion/vector.h"
 
 static realtype *data_of(N_Vector v) {
   return NV_DATA_S(v);
@@ -43,8 +44,9 @@ static realtype weighted_norm(N_Vector x, N_Vector w) {
 }
 
 N_Vector ride_vector_over(realtype *data, SUNContext context) {
-  N_Vector v = N_VMake_Serial(RIDE_SIZE, data, context);
+  N_Vector v = vector_create(RIDE_SIZE, context);
   if (!v) return NULL;
+  NV_DATA_S(v) = data;
   v->ops->nvlinearsum = linear_sum;
   v->ops->nvscale = scale;
   v->ops->nvwrmsnorm = weighted_norm;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eigenvalues of upright straight riding.
+#include "motion/lapack.h"
+
 #include <bicycle/error.h>
 #include <bicycle/stability.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -18,8 +19,7 @@ int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]) {
   double copy[16], re[4], im[4], pairs[4][2];
   for (int i = 0; i < 16; i++)
     if (!isfinite(copy[i] = A[i])) return BIKE_ERROR_NOT_FINITE;
-  if (LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'N', 4, copy, 4, re, im, NULL, 1, NULL, 1))
-    return BIKE_ERROR_NO_CONVERGENCE;
+  if (!lapack_eigenvalues(re, im, NULL, copy, 4)) return BIKE_ERROR_NO_CONVERGENCE;
   for (int i = 0; i < 4; i++) {
     pairs[i][0] = re[i];
     pairs[i][1] = im[i];

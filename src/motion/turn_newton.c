@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/turn_newton.h"
 
+#include "motion/vector.h"
+
 #include <kinsol/kinsol.h>
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -70,8 +71,8 @@ static void quiet_info(const char *module, const char *function, char *text, voi
 
 static int set_up(newton *s) {
   if (SUNContext_Create(NULL, &s->context)) return 1;
-  s->x = N_VNew_Serial(s->size, s->context);
-  s->scale = N_VNew_Serial(s->size, s->context);
+  s->x = vector_create(s->size, s->context);
+  s->scale = s->x ? N_VClone(s->x) : NULL;
   s->matrix = SUNDenseMatrix(s->size, s->size, s->context);
   if (!s->x || !s->scale || !s->matrix) return 1;
   N_VConst(1, s->scale);
@@ -86,7 +87,8 @@ static int set_up(newton *s) {
          KINSetMaxSetupCalls(s->kinsol, JACOBIAN_LIFE) ||
          KINSetFuncNormTol(s->kinsol, SMALLEST_RESIDUAL) ||
          KINSetScaledStepTol(s->kinsol, SMALLEST_STEP) ||
-         KINSetMaxNewtonStep(s->kinsol, LONGEST_STEP) || KINSetNumMaxIters(s->kinsol, ITERATIONS);
+         KINSetMaxNewtonStep(s->kinsol, LONGEST_STEP) || KINSetNumMaxIters(s->kinsol, ITERATIONS) ||
+         vector_ran_out(s->x);
 }
 
 newton *newton_create(int size) {

@@ -183,8 +183,14 @@ static double from_upright(const double y[Y_SIZE]) {
   return hypot(y[Y_LEAN], y[Y_STEER]);
 }
 
+// All numbers count: where qsort finds no memory it takes equals in any order.
 static int outwards(const void *a, const void *b) {
   double x = from_upright(a), y = from_upright(b);
+  const double *p = a, *q = b;
+  for (int i = 0; x == y && i < Y_SIZE; i++) {
+    x = p[i];
+    y = q[i];
+  }
   return (x > y) - (x < y);
 }
 

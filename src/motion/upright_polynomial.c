@@ -2,12 +2,15 @@
 // Roots are eigenvalues of companion matrices, polished: no grid can miss one.
 #include "motion/upright_polynomial.h"
 
+#include "motion/lapack.h"
+
 #include <bicycle/error.h>
 #include <float.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+_Static_assert((int)POLYNOMIAL_DEGREE <= (int)LAPACK_LARGEST, "companion matrices fit");
 
 polynomial polynomial_product(polynomial a, polynomial b) {
   polynomial p = {.degree = a.degree + b.degree};
@@ -90,8 +93,7 @@ int polynomial_real_roots(double out[POLYNOMIAL_DEGREE], int *count, const polyn
   }
   for (int i = 0; i < n * n; i++)
     if (!isfinite(companion[i])) return BIKE_ERROR_NOT_FINITE;
-  if (LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'N', n, companion, n, re, im, NULL, 1, NULL, 1))
-    return BIKE_ERROR_NO_CONVERGENCE;
+  if (!lapack_eigenvalues(re, im, NULL, companion, n)) return BIKE_ERROR_NO_CONVERGENCE;
   const double pair = 1e-6; // square root of rounding: how far a double root splits
   for (int i = 0; i < n; i++) {
     if (fabs(im[i]) > pair * hypot(re[i], im[i])) continue;

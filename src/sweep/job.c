@@ -40,7 +40,7 @@ bool sweep_job_next(sweep_job *job, sweep_range *out, double rate) {
 void sweep_job_deliver(sweep_job *job, const sweep_batch *batch) {
   if (job->broken) return;
   if (!sweep_log_append(&job->log, batch->text, batch->size)) {
-    bike_message(&job->error, BIKE_ERROR_FILE, "%s: %s", job->log.path, strerror(errno));
+    bike_message_system(&job->error, job->log.path, errno);
     job->broken = true;
     return;
   }

@@ -2,6 +2,7 @@
 // Writing the log: opening, locking, resuming, appending.
 #include "log.h"
 
+#include "files/memory_stream.h"
 #include "files/message.h"
 #include "terminal/command.h"
 
@@ -17,7 +18,7 @@
 char *sweep_log_header(const sweep_spec *spec) {
   char *text = NULL;
   size_t size;
-  FILE *stream = open_memstream(&text, &size);
+  FILE *stream = bike_memory_stream(&text, &size);
   if (!stream) return NULL;
   fprintf(stream, "# bicycle-sweep log %d\n# version %s\n# spec %s\n# points %ld\n# columns ",
           SWEEP_LOG_FORMAT, term_version(), spec->hash, spec->points);
@@ -28,17 +29,13 @@ char *sweep_log_header(const sweep_spec *spec) {
   return NULL;
 }
 
-static int fail(const char *path, int number, bike_file_error *error) {
-  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
-}
-
 // A lock that ends with the process. File systems without locks are trusted.
 static int lock(const sweep_log *log, bike_file_error *error) {
   if (flock(log->descriptor, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP)
     return BIKE_OK;
   if (errno == EWOULDBLOCK)
     return bike_message(error, BIKE_ERROR_FILE, "%s: another process is writing it", log->path);
-  return fail(log->path, errno, error);
+  return bike_message_system(error, log->path, errno);
 }
 
 bool sweep_log_append(const sweep_log *log, const char *text, size_t size) {
@@ -55,7 +52,7 @@ bool sweep_log_append(const sweep_log *log, const char *text, size_t size) {
 static int begin(const sweep_log *log, const char *header, bike_file_error *error) {
   if (ftruncate(log->descriptor, 0) == 0 && sweep_log_append(log, header, strlen(header)))
     return BIKE_OK;
-  return fail(log->path, errno, error);
+  return bike_message_system(error, log->path, errno);
 }
 
 // Whether the log is this sweep's: which line differs tells what is wrong.
@@ -99,14 +96,15 @@ static int resume(const sweep_log *log, const char *header, sweep_record_visitor
   sweep_log_unmap(&view);
   if (code) return code;
   if (!begun) return begin(log, header, error);
-  return ftruncate(log->descriptor, whole) == 0 ? BIKE_OK : fail(log->path, errno, error);
+  return ftruncate(log->descriptor, whole) == 0 ? BIKE_OK
+                                                : bike_message_system(error, log->path, errno);
 }
 
 static int open_file(sweep_log *out, const char *path, bike_file_error *error) {
   struct stat status;
   *out = (sweep_log){path, open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)};
-  if (out->descriptor < 0) return fail(path, errno, error);
-  if (fstat(out->descriptor, &status) != 0) return fail(path, errno, error);
+  if (out->descriptor < 0) return bike_message_system(error, path, errno);
+  if (fstat(out->descriptor, &status) != 0) return bike_message_system(error, path, errno);
   if (!S_ISREG(status.st_mode))
     return bike_message(error, BIKE_ERROR_FILE, "%s: is not a regular file", path);
   return lock(out, error);

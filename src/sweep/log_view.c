@@ -13,14 +13,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int fail(const char *path, int number, bike_file_error *error) {
-  return bike_message(error, BIKE_ERROR_FILE, "%s: %s", path, strerror(number));
-}
-
 static int map(sweep_log_view *out, int descriptor, bike_file_error *error) {
   struct stat status;
-  if (fstat(descriptor, &status) != 0) return fail(out->path, errno, error);
-  if (S_ISDIR(status.st_mode)) return fail(out->path, EISDIR, error);
+  if (fstat(descriptor, &status) != 0) return bike_message_system(error, out->path, errno);
+  if (S_ISDIR(status.st_mode)) return bike_message_system(error, out->path, EISDIR);
   if (!S_ISREG(status.st_mode))
     return bike_message(error, BIKE_ERROR_FILE, "%s: is not a regular file", out->path);
   out->device = status.st_dev;
@@ -29,7 +25,7 @@ static int map(sweep_log_view *out, int descriptor, bike_file_error *error) {
   out->data = "";
   if (out->size == 0) return BIKE_OK;
   void *data = mmap(NULL, out->size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  if (data == MAP_FAILED) return fail(out->path, errno, error);
+  if (data == MAP_FAILED) return bike_message_system(error, out->path, errno);
   out->data = data;
   return BIKE_OK;
 }
@@ -62,7 +58,7 @@ static void read_header(sweep_log_view *view) {
 int sweep_log_map(sweep_log_view *out, const char *path, bike_file_error *error) {
   *out = (sweep_log_view){.path = path, .data = ""};
   const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return fail(path, errno, error);
+  if (descriptor < 0) return bike_message_system(error, path, errno);
   const int code = map(out, descriptor, error);
   close(descriptor);
   if (!code) read_header(out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "work.h"
 
+#include "files/memory_stream.h"
 #include "interrupt.h"
 
 #include <stdlib.h>
@@ -48,7 +49,7 @@ static bool write_records(sweep_batch *out, const worker *w, sweep_range range, 
 
 static bool compute(sweep_batch *out, const worker *w, sweep_range range) {
   *out = (sweep_batch){0};
-  FILE *stream = open_memstream(&out->text, &out->size);
+  FILE *stream = bike_memory_stream(&out->text, &out->size);
   if (!stream) return false;
   const bool written = write_records(out, w, range, stream);
   return fclose(stream) == 0 && written;

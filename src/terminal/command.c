@@ -3,6 +3,7 @@
 
 #include "terminal/number.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +53,9 @@ void term_parse(const struct argp *argp, const char *example, int argc, char **a
   const struct argp root = {.options = options, .parser = parse_wrapper, .children = children};
   wrapper wrapped = {example, input};
   argp_err_exit_status = TERM_USAGE;
-  if (argp_parse(&root, argc, argv, ARGP_NO_HELP, NULL, &wrapped) != 0) exit(TERM_USAGE);
+  int failed = argp_parse(&root, argc, argv, ARGP_NO_HELP, NULL, &wrapped);
+  if (failed == ENOMEM) exit(term_fail(TERM_INVALID, "out of memory"));
+  if (failed) exit(TERM_USAGE);
 }
 
 void term_usage(const char *format, ...) {

@@ -16,10 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static term_exit fail(const char *path, int number) {
-  return term_fail(TERM_USAGE, "%s: %s", path, strerror(number));
-}
-
 //---------------------------------- what is there already -----------------------------------------
 
 static bool is_ours(const char *name, const term_file *files, int count) {
@@ -37,7 +33,7 @@ static bool is_folder(DIR *parent, const char *name) {
 
 static term_exit check_content(const char *path, const term_file *files, int count) {
   DIR *folder = opendir(path);
-  if (!folder) return fail(path, errno);
+  if (!folder) return term_fail_system(errno, path);
   term_exit code = TERM_DONE;
   for (struct dirent *entry = readdir(folder); entry && code == TERM_DONE; entry = readdir(folder))
     if (!is_ours(entry->d_name, files, count) || is_folder(folder, entry->d_name))
@@ -51,7 +47,7 @@ static term_exit check_parent(const char *target) {
   char *parent = term_place_parent(target);
   if (!parent) return term_fail_bike(BIKE_ERROR_MEMORY, target);
   int number = term_place_check_parent(parent);
-  term_exit code = number ? fail(parent, number) : TERM_DONE;
+  term_exit code = number ? term_fail_system(number, parent) : TERM_DONE;
   free(parent);
   return code;
 }
@@ -60,9 +56,10 @@ static term_exit check(const char *target, const term_file *files, int count) {
   struct stat status;
   term_exit code = TERM_DONE;
   if (stat(target, &status) == 0)
-    code = S_ISDIR(status.st_mode) ? check_content(target, files, count) : fail(target, ENOTDIR);
+    code = S_ISDIR(status.st_mode) ? check_content(target, files, count)
+                                   : term_fail_system(ENOTDIR, target);
   else if (errno != ENOENT)
-    code = fail(target, errno);
+    code = term_fail_system(errno, target);
   return code == TERM_DONE ? check_parent(target) : code;
 }
 
@@ -122,7 +119,7 @@ static term_exit write_held(const char *aside, const char *target, const file_li
   term_hold_signals(&before);
   int number = write_aside(aside, target, list);
   term_release_signals(&before);
-  return number ? fail(target, number) : TERM_DONE;
+  return number ? term_fail_system(number, target) : TERM_DONE;
 }
 
 term_exit term_folder_write(const char *path, const term_file *files, int count) {

@@ -2,10 +2,21 @@
 #include "terminal/json.h"
 
 #include "files/text.h"
+#include "terminal/message.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static void *allocate(size_t size) {
+  void *memory = malloc(size);
+  if (!memory) term_lose();
+  return memory;
+}
+
+void term_json_begin(void) {
+  json_set_alloc_funcs(allocate, free);
+}
 
 json_t *term_json_number(double value) {
   return isfinite(value) ? json_real(value + 0.0) : json_null(); // "0.0" also of a negative zero
@@ -13,7 +24,7 @@ json_t *term_json_number(double value) {
 
 json_t *term_json_text(const char *text) {
   size_t length = strlen(text), used = 0;
-  char *copy = malloc(3 * length + 1);
+  char *copy = allocate(3 * length + 1);
   for (size_t at = 0, step; copy && at < length; at += step) {
     const size_t whole = bike_text_character(text + at, length - at);
     step = whole ? whole : 1;
@@ -47,7 +58,8 @@ json_t *term_json_texts(const char *const *texts, size_t count) {
 bool term_json_write(json_t *document, FILE *stream) {
   if (!document) return false;
   // 17 significant digits identify every double.
-  bool written = json_dumpf(document, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
+  bool written = !term_has_lost() &&
+                 json_dumpf(document, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) == 0 &&
                  fputc('\n', stream) != EOF;
   json_decref(document);
   return written || ferror(stream);

@@ -8,6 +8,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
+// Makes jansson call term_lose where it finds no memory, so that documents can be built without
+// looking at every step. term_begin calls it, before the first document.
+void term_json_begin(void);
+
 // JSON knows no NaN and no infinity, and json_real refuses them with NULL: null, on purpose.
 json_t *term_json_number(double value);
 
@@ -24,8 +28,9 @@ json_t *term_json_matrix(const double *values, size_t rows, size_t columns);
 json_t *term_json_texts(const char *const *texts, size_t count);
 
 // Writes the document with 17 digits, keys in the order of insertion, a line feed at the end, and
-// releases it. False when memory is short (the document is NULL, or could not be printed); what
-// goes wrong with the stream itself is found by who closes it.
+// releases it. False when memory was short (the document is NULL, lacks something, or could not be
+// printed); nothing is written then unless it is the printing that failed. What goes wrong with the
+// stream itself is found by who closes it.
 bool term_json_write(json_t *document, FILE *stream);
 
 #endif

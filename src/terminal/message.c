@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terminal/message.h"
 
+#include "terminal/json.h"
+
 #include <bicycle/error.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,14 +16,29 @@
 
 static const char *program_name = "bicycle";
 
-// Runs at exit: a result that was lost on its way must not look like a success; a failure has said
-// its line already. Streams are not flushed again after it, hence _exit.
-static void check_stdout(int status, void *unused) {
+static atomic_bool lost;
+
+void term_lose(void) {
+  atomic_store(&lost, true);
+}
+
+bool term_has_lost(void) {
+  return atomic_load(&lost);
+}
+
+// Runs at exit: a result that was lost on its way must not look like one, nor what follows from a
+// loss like a fault of the input. Streams are not flushed again after it, hence _exit.
+static void check_results(int status, void *unused) {
   (void)unused;
+  if (term_has_lost() && status <= TERM_BASELINE && status != TERM_INVALID) {
+    term_message("out of memory");
+    fflush(stdout);
+    _exit(TERM_INVALID);
+  }
   if (status != TERM_DONE) return;
   errno = 0;
-  bool lost = ferror(stdout) != 0;
-  if (fflush(stdout) != 0 || lost) {
+  bool failed = ferror(stdout) != 0;
+  if (fflush(stdout) != 0 || failed) {
     term_message("standard output: %s", errno ? strerror(errno) : "write error");
     _exit(TERM_USAGE);
   }
@@ -31,7 +49,8 @@ void term_begin(const char *program) {
   program_name = program;
   if (begun) return;
   begun = true;
-  on_exit(check_stdout, NULL);
+  term_json_begin();
+  on_exit(check_results, NULL);
   signal(SIGXFSZ, SIG_IGN); // a limit on files (ulimit -f) is then an error of the write, told
 }
 
@@ -76,6 +95,11 @@ term_exit term_exit_of(int code) {
   default:
     return TERM_USAGE;
   }
+}
+
+term_exit term_fail_system(int number, const char *subject) {
+  if (number == ENOMEM) return term_fail_bike(BIKE_ERROR_MEMORY, subject);
+  return term_fail(TERM_USAGE, "%s: %s", subject, strerror(number));
 }
 
 term_exit term_fail_bike(int code, const char *subject) {

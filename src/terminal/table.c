@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terminal/table.h"
 
+#include "terminal/message.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,12 +16,14 @@ struct term_table {
   int column_count;
   table_row *rows;
   size_t row_count, row_room;
-  bool lost; // a row could not be stored
 };
 
 term_table *term_table_create(const term_column *columns, int count) {
   term_table *table = calloc(1, sizeof *table);
-  if (!table) return NULL;
+  if (!table) {
+    term_lose();
+    return NULL;
+  }
   table->columns = columns;
   table->column_count = count;
   return table;
@@ -66,7 +70,7 @@ void term_table_add(term_table *table, term_style style, const char *const *cell
   if (copy)
     table->rows[table->row_count++] = (table_row){style, copy};
   else
-    table->lost = true;
+    term_lose();
 }
 
 // Characters on the terminal: bytes of UTF-8 that do not continue a character.
@@ -115,10 +119,14 @@ static void print_row(const term_table *table, const table_row *row, const int *
 bool term_table_print(const term_table *table, FILE *stream) {
   if (!table) return false;
   int *widths = calloc((size_t)table->column_count, sizeof *widths);
-  if (!widths) return false;
+  if (!widths) term_lose();
+  if (!widths || term_has_lost()) {
+    free(widths);
+    return false;
+  }
   for (int c = 0; c < table->column_count; c++) widths[c] = column_width(table, c);
   print_headers(table, widths, stream);
   for (size_t i = 0; i < table->row_count; i++) print_row(table, &table->rows[i], widths, stream);
   free(widths);
-  return !table->lost;
+  return true;
 }

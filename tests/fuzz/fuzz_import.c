@@ -24,7 +24,7 @@ static mjModel *load(int index) {
       "validate/scenarios/models/somebodys_bicycle.xml",
   };
   static mjModel *models[MODELS];
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   char path[4096];
   snprintf(path, sizeof path, "%s/%s", BICYCLE_SOURCE_DIR, files[index]);
   if (!models[index]) models[index] = mjcf_load(path, &error);
@@ -104,7 +104,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static bike_bicycle bicycle;
   bike_model model;
   import_map map;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *m = load((int)fuzz_below(&bytes, MODELS));
   FUZZ_REQUIRE(m, "memory");
   bool sound = true;

@@ -42,14 +42,14 @@ static inline int keep_analytic(const bike_sample *s, const bike_sample_more *mo
 
 static inline runner *make_runner(const bike_bicycle *bicycle, const mjcf_options *options) {
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_create(bicycle, options, &status, &error);
   if (!r) fail_msg("%s", error.text);
   return r;
 }
 
 static inline void start_runner(runner *r, const bike_state *state) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (runner_start(r, state, &error) != RUNNER_OK) fail_msg("%s", error.text);
 }
 

@@ -14,7 +14,7 @@
 static const double parameter_tolerance = 1e-12;
 
 static mjModel *model_of(const bike_bicycle *bicycle, const mjcf_options *options) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *m = mjcf_model(bicycle, options, NULL, &error);
   if (!m) fail_msg("%s", error.text);
   return m;
@@ -127,7 +127,7 @@ static void test_rider_offset(void **state) {
   assert_near(m->body_ipos[3 * body_of(m, BIKE_REAR_FRAME) + 1], -0.02 * 70 / 82, 1e-15);
   mj_deleteModel(m);
   b = read_shipped("roadster_riderless");
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_null(mjcf_model(&b, &options, NULL, &error));
   assert_non_null(strstr(error.text, "rider"));
 }
@@ -140,7 +140,7 @@ static void test_shipped_models(void **state) {
     const char *name = shipped_bicycles[i].name;
     snprintf(path, sizeof path, "%s/model/%s/%s.xml", BICYCLE_SOURCE_DIR, name, name);
     runner_status status;
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     runner *r = runner_load(path, &status, &error);
     if (!r) fail_msg("%s: %s", path, error.text);
     if (runner_start_at_keyframe(r, &error) != RUNNER_OK) fail_msg("%s: %s", path, error.text);
@@ -162,7 +162,7 @@ static void test_shipped_models(void **state) {
 //---------------------------------- text ----------------------------------------------------------
 
 static char *text_of(const bike_bicycle *b, const mjcf_options *options) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   char *text = mjcf_text(b, options, NULL, &error);
   if (!text) fail_msg("%s", error.text);
   return text;
@@ -198,7 +198,7 @@ static void test_placeholders(void **state) {
   // Other programs: legal; ours: the exact rank-1 tensor.
   const double *principal = plain->body_inertia + 3 * body_of(plain, BIKE_FRONT_WHEEL);
   assert_near(principal[0] + principal[2] - principal[1], 0, 1e-15);
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_true(mjcf_apply_inertia(plain, &error));
   assert_near(principal[0], 0, 0);
   assert_near(principal[1], 0.2, 0);
@@ -268,7 +268,7 @@ static void test_variants_compile(void **state) {
 static void test_refused_bicycles(void **state) {
   (void)state;
   mjcf_options options = mjcf_default_options();
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   bike_bicycle b = read_shipped("benchmark");
   for (int i = 0; i < b.part_count; i++)
     if (b.parts[i].assembly == BIKE_FRONT_WHEEL) memset(b.parts[i].inertia, 0, sizeof(double[6]));
@@ -297,7 +297,7 @@ static void test_refused_numerics(void **state) {
       {"<numeric name=\"inertia:b\" data=\"1 1 1 0 2 0\"/>", "semidefinite"}};
   for (int i = 0; i < 4; i++) {
     char text[500];
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     snprintf(text, sizeof text,
              "<mujoco><custom>%s</custom><worldbody><body name=\"b\"><freejoint/>"
              "<geom size=\"1\"/></body></worldbody></mujoco>",

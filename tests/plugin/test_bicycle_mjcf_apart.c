@@ -14,7 +14,7 @@ static const char model_file[] = "bike.xml";
 
 static mjcf_key key_of(const bike_bicycle *b, const mjcf_options *options) {
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjcf_key key = {{0}, {0}};
   runner *r = runner_create(b, options, &status, &error);
   if (!r) fail_msg("%s", error.text);
@@ -28,7 +28,7 @@ static mjcf_key key_of(const bike_bicycle *b, const mjcf_options *options) {
 
 static mjModel *compile_apart(const bike_bicycle *b, const mjcf_options *options,
                               const mjcf_key *key) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   char *model = mjcf_model_text(b, options, key, &error);
   char *scene = mjcf_scene_text(b, model_file, &error);
   mjModel *m = model && scene ? mjcf_compile_scene(scene, model_file, model, &error) : NULL;
@@ -85,7 +85,7 @@ static void check_same_ride(const mjModel *is, const mjModel *should) {
 }
 
 static void check_bicycle(const bike_bicycle *b, const mjcf_options *options) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   const mjcf_key key = key_of(b, options);
   mjModel *apart = compile_apart(b, options, &key);
   mjModel *whole = mjcf_model(b, options, &key, &error);
@@ -145,7 +145,7 @@ static void test_placeholders(void **state) {
   (void)state;
   bike_bicycle b = read_shipped("roadster");
   const mjcf_options options = mjcf_default_options();
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   write_text(model_file, mjcf_model_text(&b, &options, NULL, &error));
   write_text("scene.xml", mjcf_scene_text(&b, model_file, &error));
   char message[300] = "";
@@ -176,7 +176,7 @@ static void check_sensors(mjcf_root root) {
   bike_bicycle b = read_shipped("recumbent");
   mjcf_options options = mjcf_default_options();
   options.root = root;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   write_text(model_file, mjcf_model_text(&b, &options, NULL, &error));
   write_text("scene.xml", mjcf_scene_text(&b, model_file, &error));
   runner_status status;

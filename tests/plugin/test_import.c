@@ -62,7 +62,7 @@ static void test_own_models_return_every_number(void **state) {
     for (int root = 0; root < 2; root++)
       for (int rolling = 0; rolling < 2; rolling++) {
         bike_bicycle before, after;
-        mjcf_error error = {""};
+        mjcf_error error = {.text = ""};
         mjcf_options options = mjcf_default_options();
         options.root = (mjcf_root)root;
         options.rolling = (mjcf_rolling)rolling;
@@ -79,7 +79,7 @@ static void test_own_models_return_every_number(void **state) {
 static void test_asymmetric_bicycle_returns(void **state) {
   (void)state;
   bike_bicycle before, after;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjcf_options options = mjcf_default_options();
   load_shipped(&before, "benchmark");
   bike_part *bag = &before.parts[before.part_count++];
@@ -99,7 +99,7 @@ static void test_somebodys_bicycle(void **state) {
   bike_bicycle b;
   bike_upright upright;
   import_map map;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *m = mjcf_load(SOMEBODYS, &error);
   assert_non_null(m);
   if (!import_bicycle(&b, &map, m, &error)) fail_msg("%s", error.text);
@@ -133,7 +133,7 @@ static void test_fork_first(void **state) {
   (void)state;
   bike_bicycle b;
   import_map map;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *m = mjcf_load(FORK_FIRST, &error);
   assert_non_null(m);
   if (!import_bicycle(&b, &map, m, &error)) fail_msg("%s", error.text);
@@ -154,7 +154,7 @@ static void check_instant(const char *path, const bike_state *at) {
   bike_snapshot s;
   runner_instant i;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_import(path, &status, &error);
   if (!r) fail_msg("%s: %s", path, error.text);
   assert_true(import_bicycle(&b, NULL, runner_model(r), &error));
@@ -197,7 +197,7 @@ static int keep_last(const runner_sample *sample, void *user) {
 // Somebody's bicycle on the contacts that its author gave it.
 static runner *somebodys_as_it_is(void) {
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_import_as_is(SOMEBODYS, &status, &error);
   if (!r) fail_msg("%s", error.text);
   runner_model(r)->opt.timestep = 1e-3;
@@ -207,7 +207,7 @@ static runner *somebodys_as_it_is(void) {
 // A ride at 5 m/s from a lean rate; `last` is its last row.
 static runner_ride_result ride_for(double duration, runner *r, double lean_rate,
                                    runner_sample *last) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_ride_result result;
   const bike_state start = {.speed = 5, .lean_rate = lean_rate};
   assert_int_equal(runner_start(r, &start, &error), RUNNER_OK);
@@ -256,7 +256,7 @@ static void test_fall_after_many_lifts_is_told(void **state) {
 static void test_marked_model_is_not_ridden_on_contacts(void **state) {
   (void)state;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_null(
       runner_import_as_is(BICYCLE_SOURCE_DIR "/model/roadster/roadster.xml", &status, &error));
   assert_int_equal(runner_exit_code(status), 2);
@@ -266,7 +266,7 @@ static void test_marked_model_is_not_ridden_on_contacts(void **state) {
 static void test_missing_file(void **state) {
   (void)state;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_null(runner_import("/nowhere/x.xml", &status, &error));
   assert_int_equal(runner_exit_code(status), 2);
   assert_non_null(strstr(error.text, "No such file"));

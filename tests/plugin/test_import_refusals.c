@@ -30,7 +30,7 @@ static mjModel *edited(const edit *e) {
   fclose(stream);
   text[size] = '\0';
   char *at = strstr(text, e->from), *changed = NULL;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (!at) fail_msg("'%s' is not in %s", e->from, e->path);
   assert_true(asprintf(&changed, "%.*s%s%s", (int)(at - text), text, e->to, at + strlen(e->from)) >
               0);
@@ -42,7 +42,7 @@ static mjModel *edited(const edit *e) {
 
 static void expect_refusal(const mjModel *m, const char *says) {
   bike_bicycle b;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (import_bicycle(&b, NULL, m, &error)) fail_msg("nothing is said of '%s'", says);
   if (!strstr(error.text, says)) fail_msg("'%s' for '%s'", error.text, says);
   assert_null(strchr(error.text, '\n'));
@@ -50,7 +50,7 @@ static void expect_refusal(const mjModel *m, const char *says) {
 
 static void expect_bicycle(const mjModel *m, const char *what) {
   bike_bicycle b;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (!import_bicycle(&b, NULL, m, &error)) fail_msg("%s: %s", what, error.text);
 }
 
@@ -181,7 +181,7 @@ static void test_flags(void **state) {
       [0] = "flag constraint", [4] = "flag contact", [5] = "flag passive", [6] = "flag gravity"};
   static const char *const paths[] = {COMPANY, ROADSTER};
   for (int marked = 0; marked < 2; marked++) {
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     mjModel *m = mjcf_load(paths[marked], &error);
     assert_non_null(m);
     for (int i = 0; i < mjNDISABLE; i++) {
@@ -272,7 +272,7 @@ static void test_company_bike(void **state) {
   (void)state;
   bike_bicycle b;
   import_map map;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mjModel *m = mjcf_load(COMPANY, &error);
   if (!m || !import_bicycle(&b, &map, m, &error)) fail_msg("%s", error.text);
   assert_near(map.travel[0], 0, 1e-9);
@@ -301,7 +301,7 @@ static void test_radius_from_height(void **state) {
   for (int i = 0; i < 2; i++) {
     bike_bicycle b;
     import_map map;
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     mjModel *m = edited(&edits[i]);
     for (int g = 0; g < m->ngeom; g++)
       if (i == 1 && m->geom_type[g] == mjGEOM_PLANE) {
@@ -335,7 +335,7 @@ static void test_own_names(void **state) {
   assert_true(handle >= 0);
   for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
     runner_status status;
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     mjModel *m = edited(&edits[i]);
     mj_saveModel(m, path, NULL, 0);
     mj_deleteModel(m);

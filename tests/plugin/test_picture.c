@@ -41,7 +41,7 @@ typedef struct pixels {
 } pixels;
 
 static pixels render(const char *text, picture_size size, const char *camera, const double *at) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   picture_status status;
   mjModel *m = mjcf_compile(text, &error);
   if (!m) fail_msg("%s", error.text);
@@ -148,7 +148,7 @@ static void test_the_sky(void **state) {
 
 static void refuse(picture_size size, const char *camera, picture_status expected,
                    const char *word) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   picture_status status;
   mjModel *m = mjcf_compile(ball, &error);
   assert_null(picture_create(m, size, camera, &status, &error));

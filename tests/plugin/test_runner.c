@@ -11,7 +11,7 @@ static runner *runner_of(const bike_bicycle *bicycle, mjcf_root root) {
   mjcf_options options = mjcf_default_options();
   options.root = root;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_create(bicycle, &options, &status, &error);
   if (!r) fail_msg("%s", error.text);
   return r;
@@ -19,7 +19,7 @@ static runner *runner_of(const bike_bicycle *bicycle, mjcf_root root) {
 
 static runner_instant instant_of(runner *r, const bike_state *state, const bike_input *input) {
   runner_instant out;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_evaluate(&out, r, state, input, &error);
   if (status != RUNNER_OK) fail_msg("%s", error.text);
   return out;
@@ -37,7 +37,7 @@ static void test_start_satisfies_constraints(void **state) {
       runner *r = runner_of(&b, (mjcf_root)root);
       for (int k = 0; k < 200; k++) {
         bike_state s = random_state(&source, &shipped_bicycles[i].range);
-        mjcf_error error = {""};
+        mjcf_error error = {.text = ""};
         assert_int_equal(runner_start(r, &s, &error), RUNNER_OK);
         double residual = runner_residual(r, runner_data(r));
         assert_below(residual, 1e-13);
@@ -90,7 +90,7 @@ static void test_bad_starts(void **state) {
   (void)state;
   bike_bicycle b = read_shipped("penny_farthing");
   runner *r = runner_of(&b, MJCF_ROOT_HINGE);
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   bike_state fallen = {.lean = 1.55, .speed = 3}, nan = {.steer_rate = NAN, .speed = 3};
   assert_int_equal(runner_start(r, &fallen, &error), RUNNER_ARGUMENT);
   assert_int_equal(runner_start(r, &nan, &error), RUNNER_ARGUMENT);
@@ -285,7 +285,7 @@ static void test_displaced_rider_agrees(void **state) {
   mjcf_options options = mjcf_default_options();
   options.rider_offset = 0.03;
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner *r = runner_create(&b, &options, &status, &error);
   assert_non_null(r);
   bike_state s = {0.1, -0.05, 0.2, 0.1, 5};

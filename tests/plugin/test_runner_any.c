@@ -10,7 +10,7 @@
 static runner_any *load(const char *folder, const char *name) {
   char path[1024];
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   snprintf(path, sizeof path, "%s/%s/%s", BICYCLE_SOURCE_DIR, folder, name);
   runner_any *r = runner_any_load(path, &status, &error);
   if (!r) fail_msg("%s", error.text);
@@ -20,7 +20,7 @@ static runner_any *load(const char *folder, const char *name) {
 static const char examples[] = "plugin/examples", models[] = "tests/plugin/rolling_models";
 
 static void start(runner_any *r) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   double moved;
   if (runner_any_start(r, false, &moved, &error) != RUNNER_OK) fail_msg("%s", error.text);
   assert_near(moved, 0, 0);
@@ -71,7 +71,7 @@ static runner_any_def def_of(double duration, record *out) {
 }
 
 static runner_status ride(runner_any_result *result, runner_any *r, const runner_any_def *def) {
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = runner_any_ride(result, r, def, &error);
   assert_int_equal(status != RUNNER_OK, strlen(error.text) > 0);
   return status;
@@ -197,7 +197,7 @@ typedef struct fault {
 static void check_fault(const fault *f) {
   char text[1500];
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   disc_text(text, f->marker, f->more, f->at);
   runner_any *r = load_text(text, &status, &error);
   if (r) status = runner_any_start(r, false, NULL, &error);
@@ -241,7 +241,7 @@ static void test_faults(void **state) {
        "off the ground"},
   };
   for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) check_fault(&faults[i]);
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status;
   assert_null(load_text("<mujoco><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody>"
                         "</mujoco>",
@@ -255,7 +255,7 @@ static void test_a_wrong_sensor_is_named(void **state) {
   (void)state;
   char text[1500], world[1800];
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   disc_text(text, RIM, "", UPRIGHT);
   char *end = strstr(text, "</mujoco>");
   assert_non_null(end);
@@ -276,7 +276,7 @@ static void test_two_discs_on_one_body(void **state) {
   (void)state;
   char text[1500];
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   disc_text(text, RIM "<element objtype=\"geom\" objname=\"rim\" prm=\"0.3\"/>", "",
             UPRIGHT " qvel=\"3 0 0 0 0 10\"");
   runner_any *r = load_text(text, &status, &error);
@@ -295,7 +295,7 @@ static void test_a_start_is_put_right(void **state) {
   (void)state;
   char text[1500];
   runner_status status;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   double moved = 0;
   disc_text(text, RIM, "", "qpos=\"0 0 0.35 0.70710678118654757 -0.70710678118654757 0 0\"");
   runner_any *r = load_text(text, &status, &error);
@@ -314,7 +314,7 @@ static void test_a_start_is_put_right(void **state) {
 static void test_mujocos_warnings(void **state) {
   (void)state;
   runner_any *r = load(examples, "bicycle.xml");
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_any_model(r)->key_ctrl[0] = NAN;
   assert_int_equal(runner_any_start(r, false, NULL, &error), RUNNER_INVALID_WARNING);
   assert_non_null(strstr(error.text, "CTRL"));
@@ -337,7 +337,7 @@ static void test_lost_ground(void **state) {
   record it = {0};
   runner_any_def def = def_of(20, &it);
   runner_any_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_any_model(r)->opt.timestep = 0.2;
   def.sample = 0.2;
   start(r);

@@ -17,7 +17,7 @@ static void ride_under(runner_ride_result *is, bike_ride_result *should, const b
   runner_ride_def def = runner_default_ride_def();
   def.duration = 0.1, def.lean_limit = lean_limit, def.stop_at_lift = stop_at_lift;
   def.on_sample = keep_mujoco, def.user = &mujoco;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   mujoco = analytic = (trace){0};
   if (runner_ride(is, r, &def, &error) != RUNNER_OK) fail_msg("%s", error.text);
   runner_free(r);

@@ -74,7 +74,7 @@ static void lie_flat(runner *r) {
 
 static void check_accident(void (*harm)(runner *r), runner_status status, const char *word) {
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_int_equal(ride_into(harm, &result, &error), status);
   if (!strstr(error.text, word)) fail_msg("'%s' does not say '%s'", error.text, word);
   assert_int_equal(runner_exit_code(status), 3);
@@ -98,7 +98,7 @@ static void test_accidents(void **state) {
 static void test_mujoco_error(void **state) {
   (void)state;
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status = ride_into(shrink_stack, &result, &error);
   assert_int_equal(status, RUNNER_INVALID_ERROR);
   if (!strstr(error.text, "tack")) fail_msg("%s", error.text);
@@ -109,7 +109,7 @@ static void test_mujoco_error(void **state) {
 static void test_recovery(void **state) {
   (void)state;
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_int_equal(ride_into(steal_callback, &result, &error), RUNNER_INVALID_CALLBACK);
   assert_int_equal(ride_into(NULL, &result, &error), RUNNER_INTERRUPTED);
   assert_near(result.end_time, 0.5, 1e-12);
@@ -188,7 +188,7 @@ static void test_foreign_models(void **state) {
                {"objname=\"front_wheel\"", "objname=\"world\"", "cannot move (body 'world')"},
                {"<tuple", "<text name=\"rolling_discs\" data=\"x\"/><tuple",
                 "rolling_driven (text 'rolling_discs')"}};
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status;
   runner_free(load_edited("<mujoco", "<mujoco", &status, &error));
   assert_int_equal(status, RUNNER_OK);
@@ -210,7 +210,7 @@ static void test_singular_bicycle(void **state) {
   mjcf_options options = mjcf_default_options();
   for (int root = 0; root < 2; root++) {
     runner_status status;
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     options.root = root ? MJCF_ROOT_FREE : MJCF_ROOT_HINGE;
     assert_null(runner_create(&b, &options, &status, &error));
     assert_int_equal(status, RUNNER_MODEL);
@@ -221,7 +221,7 @@ static void test_singular_bicycle(void **state) {
 static runner_instant evaluate(runner *r) {
   const bike_state state = {.lean = 0.1, .steer = 0.05, .speed = 5};
   runner_instant out;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (runner_evaluate(&out, r, &state, NULL, &error) != RUNNER_OK) fail_msg("%s", error.text);
   return out;
 }
@@ -231,7 +231,7 @@ static void test_a_wheel_marked_often(void **state) {
   (void)state;
 #define REAR "<element objtype=\"body\" objname=\"rear_wheel\" prm=\"0.3\"/>"
   static const char begin[] = "<tuple name=\"rolling_discs\">";
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status;
   runner *once = load_edited(begin, begin, &status, &error);
   runner *often = load_edited(
@@ -250,7 +250,7 @@ static void test_a_wheel_marked_often(void **state) {
 // A disc that is spoilt after the model was checked.
 static void test_a_disc_left_free_is_named(void **state) {
   (void)state;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   runner_status status;
   runner_instant at;
   runner *r = load_edited("<mujoco", "<mujoco", &status, &error);
@@ -268,7 +268,7 @@ static void test_keyframe(void **state) {
   bike_bicycle b = read_shipped("benchmark");
   mjcf_options options = mjcf_default_options();
   runner *r = make_runner(&b, &options);
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_int_equal(runner_start_at_keyframe(r, &error), RUNNER_MODEL);
   const bike_state start = {.lean_rate = 0.1, .speed = 5};
   start_runner(r, &start);

@@ -37,7 +37,7 @@ static extremes ride_a_minute(const bike_state *start) {
   def.duration = 60, def.sample = 1e-3;
   def.on_sample = look, def.user = &e;
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (runner_ride(&result, r, &def, &error) != RUNNER_OK) fail_msg("%s", error.text);
   runner_free(r);
   assert_true(result.complete);

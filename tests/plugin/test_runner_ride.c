@@ -70,7 +70,7 @@ static void ride_mujoco(trace *out, runner_ride_result *result, const task *t,
   def.input = t->input;
   def.on_sample = keep_mujoco;
   def.user = out;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   *out = (trace){0};
   if (runner_ride(result, r, &def, &error) != RUNNER_OK) fail_msg("%s", error.text);
   runner_free(r);

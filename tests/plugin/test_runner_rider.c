@@ -45,7 +45,7 @@ static void ride_mujoco(const task *t) {
   def.on_sample = keep_mujoco, def.user = &mujoco;
   mujoco = (trace){0};
   runner_ride_result result;
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   if (runner_ride(&result, r, &def, &error) != RUNNER_OK) fail_msg("%s", error.text);
   assert_true(result.complete);
   runner_free(r);
@@ -174,7 +174,7 @@ static void test_instant(void **state) {
   const bike_input *inputs[] = {&input, NULL};
   for (int i = 0; i < 2; i++) {
     runner_instant is;
-    mjcf_error error = {""};
+    mjcf_error error = {.text = ""};
     if (runner_evaluate(&is, r, &at, inputs[i], &error) != RUNNER_OK) fail_msg("%s", error.text);
     assert_int_equal(bike_rates_of(&rates, &model, &at, inputs[i]), 0);
     assert_near(is.lean_acceleration, rates.acceleration.lean, 1e-11);
@@ -185,7 +185,7 @@ static void test_instant(void **state) {
 
 static void refuse(const char *bicycle, const mjcf_options *options, const char *word) {
   bike_bicycle b = read_shipped(bicycle);
-  mjcf_error error = {""};
+  mjcf_error error = {.text = ""};
   assert_null(mjcf_text(&b, options, NULL, &error));
   assert_non_null(strstr(error.text, word));
 }

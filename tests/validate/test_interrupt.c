@@ -39,8 +39,8 @@ static void write_and(writer *rest, const char *target, int number) {
   problem p;
   folder f;
   if (folder_begin(&f, target, &p) != TERM_DONE) _exit(8);
-  FILE *stream = folder_open(&f, "report.json", &p);
-  if (!stream || fputs("{}", stream) < 0) _exit(8);
+  FILE *stream = NULL;
+  if (folder_open(&stream, &f, "report.json", &p) != TERM_DONE || fputs("{}", stream) < 0) _exit(8);
   if (term_signal_waits()) _exit(7);
   folder_close(stream, "report.json", &p);
   rest(&f, number);

@@ -2,6 +2,7 @@
 #include "canvas.h"
 
 #include "escape.h"
+#include "files/memory_stream.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,7 +37,7 @@ enum { MARGIN = 24 }; // pixels around all that is drawn
 
 bool draw_open(draw_canvas *canvas) {
   *canvas = (draw_canvas){.bounds = {{DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX}}};
-  canvas->body = open_memstream(&canvas->text, &canvas->size);
+  canvas->body = bike_memory_stream(&canvas->text, &canvas->size);
   return canvas->body != NULL;
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "figure_list.h"
 
+#include "terminal/message.h"
+
 #include <stdlib.h>
 
 static json_t *path_json(const char *folder, const char *name, const char *end) {
   char *path = NULL;
-  if (asprintf(&path, "%s/%s%s", folder, name, end) < 0) return NULL;
+  if (asprintf(&path, "%s/%s%s", folder, name, end) < 0) {
+    term_lose();
+    return NULL;
+  }
   json_t *out = term_json_text(path);
   free(path);
   return out;

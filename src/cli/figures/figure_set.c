@@ -2,6 +2,7 @@
 #include "figure_set.h"
 
 #include "../draw/escape.h"
+#include "files/memory_stream.h"
 #include "terminal/command.h"
 #include "terminal/data.h"
 #include "terminal/message.h"
@@ -21,12 +22,12 @@ FILE *figure_add(figure_set *set, const figure_words *words, plot *p) {
   char caption[FIGURE_CAPTION + BIKE_NAME_SIZE];
   snprintf(caption, sizeof caption, "Figure %s, %s. %s", words->number, set->bicycle->name,
            words->caption);
-  FILE *svg = open_memstream(&f->svg, &f->svg_size);
+  FILE *svg = bike_memory_stream(&f->svg, &f->svg_size);
   if (!svg) return NULL;
   bool drawn = plot_write(p, words->name, f->title, caption, svg);
   set->count++; // from here on freed with the set
   if (fclose(svg) != 0 || !drawn) return NULL;
-  return open_memstream(&f->csv, &f->csv_size);
+  return bike_memory_stream(&f->csv, &f->csv_size);
 }
 
 void figure_set_free(figure_set *set) {
@@ -108,8 +109,7 @@ static void write_index(FILE *out, const void *what) {
 }
 
 term_exit figure_write_all(const figure_set *set, const char *folder) {
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    return term_fail(TERM_USAGE, "%s: %s", folder, strerror(errno));
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return term_fail_system(errno, folder);
   term_exit code = TERM_DONE;
   for (int i = 0; i < set->count && code == TERM_DONE; i++) {
     const figure *f = &set->figures[i];

@@ -2,6 +2,7 @@
 #include "plot.h"
 
 #include "../draw/escape.h"
+#include "files/memory_stream.h"
 #include "plot_frame.h"
 #include "track.h"
 
@@ -40,10 +41,10 @@ static const char *const fill_names[PLOT_FILLS] = {"light", "middle", "dark", "h
 
 bool plot_open(plot *p, const plot_axis *x, const plot_axis *y) {
   *p = (plot){.x = *x, .y = *y};
-  p->areas = open_memstream(&p->text[0], &p->size[0]);
-  p->lines = open_memstream(&p->text[1], &p->size[1]);
-  p->labels = open_memstream(&p->text[2], &p->size[2]);
-  p->gaps = open_memstream(&p->text[3], &p->size[3]);
+  p->areas = bike_memory_stream(&p->text[0], &p->size[0]);
+  p->lines = bike_memory_stream(&p->text[1], &p->size[1]);
+  p->labels = bike_memory_stream(&p->text[2], &p->size[2]);
+  p->gaps = bike_memory_stream(&p->text[3], &p->size[3]);
   return p->areas && p->lines && p->labels && p->gaps;
 }
 
