@@ -3,8 +3,9 @@
 # Checks that take too long for every change.
 set -eu
 
-# One check a line: NAME|SUBJECT|COMMAND. The command runs in the project's folder with build/release
-# built, prints its counts in its last line, and returns 0 if all is well.
+# One check a line: NAME|SUBJECT|COMMAND. The command runs in the project's folder, with build/release
+# built if it names that, prints its counts in its last line (beside ctest's total time), and returns 0
+# if all is well.
 checks() {
   cat <<'END'
 mode_names|names of modes: 200 lists of speeds, 200 random bicycles|build/release/tests/test_modes 200 200
@@ -20,7 +21,7 @@ usage() {
 Example: sh tests/long.sh
          sh tests/long.sh threads
 
-Builds build/release and runs the checks that take longer than tests/run.sh may: all of them, or
+Builds what they need and runs the checks that take longer than tests/run.sh may: all of them, or
 those named. Logs go to build/long/NAME.log.
 
   --list            only list the checks
@@ -37,9 +38,9 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 # shellcheck source=cmake/setup.sh
 . "$root/cmake/setup.sh"
 
-# The last line of a log that says something.
+# The last line of a log that says something; ctest's total time does not.
 last_line() {
-  sed -n '/[^[:space:]]/h; ${x;p;}' "$1"
+  sed -n '/^Total Test time/!{/[^[:space:]]/h;}; ${x;p;}' "$1"
 }
 
 # run_check NAME SUBJECT COMMAND
@@ -70,15 +71,16 @@ for argument; do
 done
 chosen=$*
 cd -- "$root"
-build release
 logs=$root/build/long
 mkdir -p "$logs"
 failed=0
 count=0
 list=$logs/checks
-checks >"$list"
+checks | while IFS= read -r check; do
+  ! wanted "${check%%|*}" || printf '%s\n' "$check"
+done >"$list"
+! grep -q 'build/release/' "$list" || build release
 while IFS='|' read -r name subject command; do
-  wanted "$name" || continue
   count=$((count + 1))
   run_check "$name" "$subject" "$command"
 done <"$list"
