@@ -72,7 +72,7 @@ static bool step(turn_point *out, const turn_curve *curve, newton *solver, const
 
 // Whether the step from a to b passes the branch's first point.
 static bool passes_start(const turn_branch *b, const turn_point *from, const turn_point *to) {
-  const int too_few = 4; // the start itself is left behind
+  const size_t too_few = 4; // the start itself is left behind
   if (b->count < too_few) return false;
   double length = ahead(from, to->y), reached = ahead(from, b->at[0].y), beside[Y_SIZE];
   if (!(reached > 0 && reached <= length)) return false;
