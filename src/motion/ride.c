@@ -109,6 +109,7 @@ static int state_at(ride_point *out, ride *r, double t) {
     return BIKE_OK;
   }
   int failed = r->table ? ride_table_step(out, NULL, r->table, &r->begin, t, &r->flow)
+                        // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): see ride_method.h
                         : r->method->inside(out, r->integrator, t);
   if (!failed) return BIKE_OK;
   return r->flow.fatal ? r->flow.error : BIKE_ERROR_SOLVER;
