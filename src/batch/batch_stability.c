@@ -7,6 +7,7 @@
 
 #include "batch/eigenvalues.h"
 #include "batch/lanes.h"
+#include "equations/slaved.h"
 #include "equations/tangent/jacobian.h"
 
 // State i of the points is number `from + i` of the caller's, or the last.
@@ -30,6 +31,12 @@ static void gather(jacobian_points *p, const bike_state *states, const bike_inpu
   }
 }
 
+static bool all_finite(const double *a, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += a[i];
+  return isfinite(sum);
+}
+
 // As bike_linearize puts them together, at constant energy.
 static int assemble(bike_linear *out, const jacobian *j, size_t i) {
   static const int inputs[3] = {AT_STEER_TORQUE, AT_ROLL_TORQUE, AT_RIDER_ACCELERATION};
@@ -37,13 +44,14 @@ static int assemble(bike_linear *out, const jacobian *j, size_t i) {
   linear.A[2] = linear.A[7] = 1;
   for (int row = 0; row < 2; row++) {
     const jacobian_row *slope = j->slope[row]; // OF_STEER, OF_LEAN
-    double slaved = slope[AT_SPEED][i], by_speed = j->energy_slope[AT_SPEED][i];
-    if (slaved != 0 && by_speed == 0) return BIKE_ERROR_SINGULAR;
-    if (slaved != 0) slaved /= by_speed;
+    double slaved = slope[AT_SPEED][i];
+    int code = slave_to_energy(&slaved, j->energy_slope[AT_SPEED][i]);
+    if (code) return code;
     for (int k = 0; k < 4; k++)
       linear.A[4 * (row + 2) + k] = slope[k][i] - slaved * j->energy_slope[k][i];
     for (int k = 0; k < 3; k++) linear.B[3 * (row + 2) + k] = slope[inputs[k]][i] + 0.0;
   }
+  if (!all_finite(linear.A, 16) || !all_finite(linear.B, 12)) return BIKE_ERROR_NOT_FINITE;
   *out = linear;
   return BIKE_OK;
 }
@@ -65,21 +73,15 @@ int bike_batch_linearize(bike_linear *out, int *codes, const bike_model *model,
     gather(&points, states + first, in, used);
     jacobian_at(&j, here, model, &points);
     for (size_t i = 0; i < used; i++) {
-      int *code = &codes[first + i];
-      *code = here[i];
-      if (!*code && !rides_alone(model, in ? &in[i] : NULL))
-        *code = assemble(&out[first + i], &j, i);
-      else // who can follow the rear angle further, or tell why not
-        *code = bike_linearize(&out[first + i], model, &states[first + i], in ? &in[i] : NULL);
+      const bike_input *own = in ? &in[i] : NULL;
+      int code = rides_alone(model, own) ? BIKE_ERROR_NO_RIDER : here[i];
+      if (!code) code = assemble(&out[first + i], &j, i);
+      if (code) // who can follow the rear angle further, or tell why not
+        code = bike_linearize(&out[first + i], model, &states[first + i], own);
+      codes[first + i] = code;
     }
   }
   return BIKE_OK;
-}
-
-static bool all_finite(const double *a, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += a[i];
-  return isfinite(sum);
 }
 
 // Blocks of as many matrices as lanes; spare lanes hold the last one.

@@ -17,13 +17,6 @@ static inline lanes_mask is_finite(real x) {
   return ((lanes_mask)x & exponent) != exponent;
 }
 
-// What the scalar path judges as singular is left to it.
-static inline lanes_mask regular(const checks *c, real reach) {
-  const double least = 64 * 2.220446049250313e-16; // as there
-  return (lanes_abs(c->D) > least * reach) & (c->pivot_v > 0.0 * reach) &
-         (c->pivot_kap > least * c->diagonal_kap) & (c->pivot_phi > least * c->diagonal_phi);
-}
-
 // The states of one block.
 typedef struct column_view {
   const double *const *state;
@@ -32,6 +25,22 @@ typedef struct column_view {
 
 static inline real column(const column_view *v, int which) {
   return loaded(v->state[which] + v->first);
+}
+
+// Nothing near the ends of the range, which are the scalar path's to judge.
+static inline lanes_mask ordinary(column_view v) {
+  real speeds = lanes_abs(column(&v, LANES_LEAN_RATE)) + lanes_abs(column(&v, LANES_STEER_RATE)) +
+                lanes_abs(column(&v, LANES_SPEED));
+  real angles = lanes_abs(column(&v, LANES_LEAN)) + lanes_abs(column(&v, LANES_STEER));
+  real nought = speeds - speeds;
+  return (speeds <= BIKE_LARGEST + nought) & (angles <= BIKE_LARGEST_ANGLE + nought);
+}
+
+// What the scalar path judges as singular is left to it.
+static inline lanes_mask regular(const checks *c, real reach) {
+  const double least = 64 * 2.220446049250313e-16; // as there
+  return (lanes_abs(c->D) > least * reach) & (c->pivot_v > 0.0 * reach) &
+         (c->pivot_kap > least * c->diagonal_kap) & (c->pivot_phi > least * c->diagonal_phi);
 }
 
 // Three passes over a few blocks: sines and cosines, Newton's method, the rest. The first two wait
@@ -65,7 +74,7 @@ __attribute__((noinline, flatten)) static unsigned finish(double *const out[LANE
   put(out[LANES_STEER_ACC] + v.first, a.phi);
   put(out[LANES_SPEED_RATE] + v.first, a.v);
   checks c = checks_of(&now);
-  return lanes_bits(lanes_found(c.root, block->reach) & regular(&c, block->reach) &
+  return lanes_bits(lanes_found(c.root, block->reach) & regular(&c, block->reach) & ordinary(v) &
                     is_finite(a.phi) & is_finite(a.kap) & is_finite(a.v));
 }
 

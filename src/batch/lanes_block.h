@@ -25,7 +25,7 @@ static inline real loaded(const double *from) {
 static inline lanes_mask lanes_found(root_checks g, real reach) {
   const double tolerance = 4 * 2.220446049250313e-16, flat = 1e-9;
   real nought = reach - reach;
-  return (lanes_abs(g.residual) <= tolerance * reach) & (g.Q > nought) & (g.c_br > nought) &
+  return (lanes_abs(g.residual) <= tolerance * reach) & (g.Q > nought) & (g.c_br > flat + nought) &
          (g.c_kap > flat + nought) & (g.c_psi > flat + nought);
 }
 

@@ -27,6 +27,7 @@ typedef struct book {
   double longest; // s  of a step, while an end is near
   double beyond;  // s  where one has been seen
   long steps, evaluations;
+  double checkpoint; // s  see `stalled`
 } book;
 
 typedef struct pen {
@@ -276,10 +277,23 @@ static void judge_accepted(pen *p, int lane, const trial *tr, double h, bool lan
   if (over) finish(p, lane, end, def);
 }
 
+// As a ride alone (ride.c), but of all steps, accepted or not.
+static bool stalled(pen *p, int lane) {
+  book *b = &p->books[lane];
+  if (b->evaluations % ((long)RIDE_STALL_STEPS * RIDE_TABLE_8.stages)) return false;
+  bool stall = p->t[lane] - b->checkpoint < RIDE_STALL_TIME;
+  b->checkpoint = p->t[lane];
+  return stall;
+}
+
 static void judge_lane(pen *p, int lane, const trial *tr, double h, bool landed,
                        const lanes_ride_def *def) {
   book *b = &p->books[lane];
   b->evaluations += RIDE_TABLE_8.stages;
+  if (stalled(p, lane)) {
+    finish(p, lane, LANES_UNDECIDED, def);
+    return;
+  }
   if (!tr->at_start[lane] || !tr->inside[lane]) {
     bool started = b->steps > 0; // otherwise there is nothing to go back to
     if (!started || !retreat(p, lane))

@@ -11,13 +11,17 @@
 #include <bicycle/error.h>
 #include <string.h>
 
-static inline bool finite_state(const bike_state *s) {
-  return isfinite(s->lean + s->steer + s->lean_rate + s->steer_rate + s->speed);
+// NaN is not within anything. Bits of the comparisons are joined without branches.
+static inline bool state_within_range(const bike_state *s) {
+  return (fabs(s->lean) <= BIKE_LARGEST_ANGLE) & (fabs(s->steer) <= BIKE_LARGEST_ANGLE) &
+         (fabs(s->lean_rate) <= BIKE_LARGEST) & (fabs(s->steer_rate) <= BIKE_LARGEST) &
+         (fabs(s->speed) <= BIKE_LARGEST);
 }
 
-static inline bool finite_input(const bike_input *in) {
-  return isfinite(in->steer_torque + in->roll_torque + in->rider_offset + in->rider_velocity +
-                  in->rider_acceleration);
+static inline bool input_within_range(const bike_input *in) {
+  return (fabs(in->steer_torque) <= BIKE_LARGEST) & (fabs(in->roll_torque) <= BIKE_LARGEST) &
+         (fabs(in->rider_offset) <= BIKE_LARGEST) & (fabs(in->rider_velocity) <= BIKE_LARGEST) &
+         (fabs(in->rider_acceleration) <= BIKE_LARGEST);
 }
 
 static inline bool sways(const bike_input *in) {
@@ -35,7 +39,7 @@ static inline bool hands_off(const bike_input *in) {
 
 static inline int asked(question *q, const bike_model *model, const bike_state *state,
                         const bike_input *input) {
-  if (!finite_state(state) || !finite_input(input)) return BIKE_ERROR_NOT_FINITE;
+  if (!state_within_range(state) || !input_within_range(input)) return BIKE_ERROR_NOT_FINITE;
   if (model->rider_mass == 0 && sways(input)) return BIKE_ERROR_NO_RIDER;
   *q = (question){.model = model, .state = state, .in = load_of(input)};
   return BIKE_OK;
@@ -51,6 +55,14 @@ static inline int answered(evaluation *evaluate, void *out, const question *q) {
   if (code) return code;
   c = evaluate(out, q, &from);
   return judged(&c, q->model);
+}
+
+// A sum over numbers that are not all finite is not; four at a time, which need not wait for each
+// other.
+static inline bool all_finite(const double *x, int count) {
+  double sum[4] = {0};
+  for (int i = 0; i < count; i++) sum[i % 4] += x[i];
+  return isfinite((sum[0] + sum[1]) + (sum[2] + sum[3]));
 }
 
 static inline bool finite_acceleration(const bike_acceleration *a) {
@@ -93,16 +105,10 @@ static inline int answer_mass_matrix(double out[9], const state_evaluations *by,
   bike_input input = {.rider_offset = rider_offset};
   int code = asked(&q, model, state, &input);
   if (!code) code = answered(by->mass_matrix, M, &q);
-  if (!code) memcpy(out, M, sizeof M);
-  return code;
-}
-
-// Large but finite arguments may overflow in products that the accelerations do not hold.
-static inline bool finite_snapshot(const bike_snapshot *s) {
-  double sum = s->kinetic + s->potential + s->power + s->yaw_acceleration + s->pitch_acceleration +
-               s->rear_wheel_acceleration + s->front_wheel_acceleration + s->front_speed;
-  for (int i = 0; i < 3; i++) sum += s->rear_force[i] + s->front_force[i];
-  return isfinite(sum);
+  if (code) return code;
+  if (!all_finite(M, 9)) return BIKE_ERROR_SINGULAR;
+  memcpy(out, M, sizeof M);
+  return BIKE_OK;
 }
 
 static inline int answer_snapshot(bike_snapshot *out, const state_evaluations *by,
@@ -114,7 +120,7 @@ static inline int answer_snapshot(bike_snapshot *out, const state_evaluations *b
   if (!code) code = answered(by->snapshot, &is, &q);
   if (code) return code;
   if (!finite_acceleration(&is.acceleration)) return BIKE_ERROR_SINGULAR;
-  if (!finite_snapshot(&is)) return BIKE_ERROR_NOT_FINITE;
+  if (!all_finite((const double *)&is, sizeof is / sizeof(double))) return BIKE_ERROR_NOT_FINITE;
   *out = is;
   return BIKE_OK;
 }

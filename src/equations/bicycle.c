@@ -5,6 +5,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "equations/upright_axes.h"
+
+// m  of a wheelbase and of a wheel's radius, whose reciprocals the equations hold; and of both as
+// shares of the bicycle's reach, and of the cosine of the tilt: below, roundings of the longest
+// length decide where the wheels stand.
+static const double SMALLEST_LENGTH = 1 / BIKE_LARGEST, SMALLEST_SHARE = 1e-9;
+
 bike_bicycle bike_default_bicycle(void) {
   return (bike_bicycle){.gravity = 9.81};
 }
@@ -30,37 +37,44 @@ int bike_upright_position(bike_upright *out, const bike_geometry *g) {
   double tilt = atan2(g->L_s, length) - asin(difference / span);
   double s = sin(tilt), c = cos(tilt), t = s / c;
   // the wheels stand below their hubs, the front one before the rear one
-  if (!(c > 0)) return BIKE_ERROR_IMPOSSIBLE;
+  if (!(c > SMALLEST_SHARE)) return BIKE_ERROR_IMPOSSIBLE;
   double trail = g->R_f * t - g->L_f / c, axis_ground = g->L_r / c + g->R_r * t;
   double wheelbase = axis_ground - trail;
-  if (!(wheelbase > 0)) return BIKE_ERROR_IMPOSSIBLE;
+  if (!(wheelbase >= SMALLEST_LENGTH && wheelbase > SMALLEST_SHARE * geometry_reach(g)))
+    return BIKE_ERROR_IMPOSSIBLE;
+  double foot_height = g->L_r * t + g->R_r / c - g->L_s;
+  if (!isfinite(wheelbase + trail + axis_ground + foot_height)) return BIKE_ERROR_NOT_FINITE;
   *out = (bike_upright){.tilt = tilt,
                         .wheelbase = wheelbase,
                         .trail = trail,
                         .axis_ground = axis_ground,
-                        .foot_height = g->L_r * t + g->R_r / c - g->L_s,
+                        .foot_height = foot_height,
                         .rear_hub = {0, 0, g->R_r},
                         .front_hub = {wheelbase, 0, g->R_f}};
   return BIKE_OK;
 }
 
-static bool finite_all(const double *a, int n) {
+// NaN is not.
+static bool within(double most, const double *a, int n) {
   for (int i = 0; i < n; i++)
-    if (!isfinite(a[i])) return false;
+    if (!(fabs(a[i]) <= most)) return false;
   return true;
 }
 
 // Rank-1 tensors and tensors turned into these axes carry rounding of their largest entry; 64 of
 // it is well above what a turn costs and well below what a person writes.
-static double rounding_of(const double I[6]) {
+static const double ROUNDING = 64 * 2.220446049250313e-16;
+
+static double largest_of(const double I[6]) {
   double largest = 0;
   for (int i = 0; i < 6; i++) largest = fmax(largest, fabs(I[i]));
-  return 64 * 2.220446049250313e-16 * largest;
+  return largest;
 }
 
-// All principal minors of the tensor not negative.
-static bool positive_semidefinite(const double I[6]) {
-  double e = rounding_of(I);
+// All principal minors of the tensor, in units of its largest entry, not negative.
+static bool positive_semidefinite(const double inertia[6]) {
+  double I[6], largest = largest_of(inertia), e = ROUNDING;
+  for (int i = 0; i < 6; i++) I[i] = largest > 0 ? inertia[i] / largest : 0;
   double scale = fmax(fmax(fabs(I[0]), fabs(I[1])), fabs(I[2]));
   if (I[0] < -e || I[1] < -e || I[2] < -e) return false;
   double xy = I[0] * I[1] - I[3] * I[3], xz = I[0] * I[2] - I[4] * I[4];
@@ -72,7 +86,7 @@ static bool positive_semidefinite(const double I[6]) {
 
 static const char *broken_wheel_rule(const bike_part *part, const double hub[3]) {
   const double *I = part->inertia;
-  double e = rounding_of(I);
+  double e = ROUNDING * largest_of(I);
   if (fabs(I[0] - I[2]) > e || fabs(I[3]) > e || fabs(I[4]) > e || fabs(I[5]) > e)
     return "inertia of a wheel must be symmetric about its hub axis: Ixx = Izz, products zero";
   // a nanometre: rounding of any sensible length, far below any real offset
@@ -95,21 +109,25 @@ static const char *broken_part_rule(const bike_part *part, const bike_upright *u
 
 static const char *broken_bicycle_rule(const bike_bicycle *b) {
   if (!(b->geometry.R_r > 0) || !(b->geometry.R_f > 0)) return "wheel radius must be positive";
+  double smaller = fmin(b->geometry.R_r, b->geometry.R_f);
+  if (smaller < SMALLEST_LENGTH || smaller < SMALLEST_SHARE * geometry_reach(&b->geometry))
+    return "wheel radius must be at least 1e-20 m, and a billionth of the bicycle's lengths";
   if (!(b->gravity > 0)) return "gravity must be positive";
   if (!(b->steer_damping >= 0)) return "steer_damping must not be negative";
   if (b->part_count < 1 || b->part_count > BIKE_MAX_PARTS) return "number of parts out of range";
   return NULL;
 }
 
-static bool all_finite(const bike_bicycle *b, int *part) {
+static bool all_within_range(const bike_bicycle *b, int *part) {
   const bike_geometry *g = &b->geometry;
   double own[] = {g->L_r, g->L_f, g->L_s, g->R_r, g->R_f, b->gravity, b->steer_damping};
   *part = -1;
-  if (!finite_all(own, (int)(sizeof own / sizeof own[0]))) return false;
+  if (!within(BIKE_LARGEST, own, (int)(sizeof own / sizeof own[0]))) return false;
   for (int i = 0; i < b->part_count && i < BIKE_MAX_PARTS; i++) {
     const bike_part *p = &b->parts[i];
     *part = i;
-    if (!isfinite(p->mass) || !finite_all(p->position, 3) || !finite_all(p->inertia, 6))
+    if (!within(BIKE_LARGEST, &p->mass, 1) || !within(BIKE_LARGEST, p->position, 3) ||
+        !within(BIKE_LARGEST * BIKE_LARGEST, p->inertia, 6))
       return false;
   }
   *part = -1;
@@ -140,9 +158,9 @@ int bike_check(const bike_bicycle *bicycle, int *part, const char **what) {
   if (!bicycle) return BIKE_ERROR_ARGUMENT;
   int code = BIKE_OK;
   bike_upright upright;
-  if (!all_finite(bicycle, &where)) {
+  if (!all_within_range(bicycle, &where)) {
     code = BIKE_ERROR_NOT_FINITE;
-    rule = "numbers must be finite";
+    rule = "numbers must be finite and at most 1e20, inertias 1e40";
   } else if ((rule = broken_bicycle_rule(bicycle))) {
     code = BIKE_ERROR_PARAMETER;
   } else if ((code = bike_upright_position(&upright, &bicycle->geometry))) {

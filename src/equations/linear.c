@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "equations/number_complex.h"
+#include "equations/slaved.h"
 
 static const double STEP = 1e-100;
 
@@ -73,6 +74,15 @@ static void differentiate(gradients *d, const kernel_model *m, const perturbed *
   differentiate_inputs(d->B, &now, m);
 }
 
+// A result made of doubles.
+static int put_finite(void *out, const void *result, size_t size) {
+  const double *x = result;
+  for (size_t i = 0; i < size / sizeof *x; i++)
+    if (!isfinite(x[i])) return BIKE_ERROR_NOT_FINITE;
+  memcpy(out, result, size);
+  return BIKE_OK;
+}
+
 int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *state,
                    const bike_input *input) {
   const bike_input hands_off = {0};
@@ -90,16 +100,12 @@ int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *
   bike_linear linear = {0};
   linear.A[2] = linear.A[7] = 1; // phi' = phi', kappa' = kappa'
   for (int i = 0; i < 2; i++) {
-    // dv = -E_j/E_v dx_j at constant energy; by symmetry straight riding does not feel dv, and
-    // there E_v may be zero
     double slaved = d.J[i][SPEED];
-    if (slaved != 0 && d.E[SPEED] == 0) return BIKE_ERROR_SINGULAR;
-    if (slaved != 0) slaved /= d.E[SPEED];
+    if ((code = slave_to_energy(&slaved, d.E[SPEED]))) return code;
     for (int j = 0; j < 4; j++) linear.A[4 * (i + 2) + j] = d.J[i][j] - slaved * d.E[j];
     for (int j = 0; j < INPUTS; j++) linear.B[INPUTS * (i + 2) + j] = d.B[i][j];
   }
-  *out = linear;
-  return BIKE_OK;
+  return put_finite(out, &linear, sizeof linear);
 }
 
 // Lateral places and products of inertia are nothing but rounding.
@@ -156,6 +162,5 @@ int bike_linearize_upright(bike_upright_matrices *out, const bike_model *model) 
   matrix(m.K0, &heavy, model->tilt, 0, angles);
   matrix(m.K2, &weightless, model->tilt, 1, angles);
   matrix(m.C1, &weightless, model->tilt, 1, speeds);
-  *out = m;
-  return BIKE_OK;
+  return put_finite(out, &m, sizeof m);
 }

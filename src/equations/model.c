@@ -58,10 +58,6 @@ static void find_rider(bike_model *model, const bike_bicycle *bicycle, const upr
   }
 }
 
-static double reach_of(const bike_geometry *g) {
-  return fabs(g->L_r) + fabs(g->L_f) + fabs(g->L_s) + g->R_r + g->R_f;
-}
-
 int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
   if (!out || !bicycle) return BIKE_ERROR_ARGUMENT;
   int code = bike_check(bicycle, NULL, NULL);
@@ -81,7 +77,7 @@ int bike_model_init(bike_model *out, const bike_bicycle *bicycle) {
                       .newton_scale = 1 / sqrt(2 * upright.wheelbase),
                       .over_R_r = 1 / bicycle->geometry.R_r,
                       .over_R_f = 1 / bicycle->geometry.R_f};
-  model.reach = reach_of(&bicycle->geometry);
+  model.reach = geometry_reach(&bicycle->geometry);
   lump(&model.rear, bicycle, &axes, false);
   lump(&model.front, bicycle, &axes, true);
   find_rider(&model, bicycle, &axes);

@@ -3,6 +3,10 @@
 
 #include <math.h>
 
+double geometry_reach(const bike_geometry *g) {
+  return fabs(g->L_r) + fabs(g->L_f) + fabs(g->L_s) + g->R_r + g->R_f;
+}
+
 upright_axes upright_axes_of(const bike_geometry *geometry, const bike_upright *upright) {
   return (upright_axes){.s = sin(upright->tilt),
                         .c = cos(upright->tilt),

@@ -13,6 +13,9 @@ typedef struct upright_axes {
   double L_r, L_s;    // m  rear hub at (0, -L_r, L_s)
 } upright_axes;
 
+// m  |L_r| + |L_f| + |L_s| + R_r + R_f: size of the terms of (4).
+double geometry_reach(const bike_geometry *geometry);
+
 upright_axes upright_axes_of(const bike_geometry *geometry, const bike_upright *upright);
 
 // Place in (N, p, S) from the rear hub, or, of a front part, from the steering axis' foot point.

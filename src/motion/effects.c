@@ -88,7 +88,8 @@ int bike_variation_slope(double *weave_slope, double *capsize_slope, const bike_
 }
 
 int bike_lean_per_offset(double *out, const bike_model *model, double speed) {
-  if (!out || !model || !isfinite(speed)) return BIKE_ERROR_ARGUMENT;
+  if (!out || !model) return BIKE_ERROR_ARGUMENT;
+  if (!(fabs(speed) <= BIKE_LARGEST)) return BIKE_ERROR_NOT_FINITE;
   if (!(model->rider_mass > 0)) return BIKE_ERROR_NO_RIDER;
   bike_upright_matrices m;
   int code = bike_linearize_upright(&m, model);
@@ -96,6 +97,8 @@ int bike_lean_per_offset(double *out, const bike_model *model, double speed) {
   // (g K0 + v^2 K2) (lean, steer) = (m_rider g w, 0): the offset weighs on the lean alone
   double K[4], g = model->gravity;
   for (int i = 0; i < 4; i++) K[i] = g * m.K0[i] + speed * speed * m.K2[i];
-  *out = model->rider_mass * g * K[3] / (K[0] * K[3] - K[1] * K[2]);
+  double slope = model->rider_mass * g * K[3] / (K[0] * K[3] - K[1] * K[2]);
+  if (isnan(slope)) return BIKE_ERROR_NOT_FINITE;
+  *out = slope;
   return BIKE_OK;
 }

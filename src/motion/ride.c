@@ -32,7 +32,8 @@ typedef struct ride {
   double finish;      // s
   double stretch_end; // s  next breakpoint; infinite when there is none
   size_t breakpoint;  // index of the first that is still ahead
-  double checkpoint;  // s  see `stalled`
+  long own_steps;     // see `stalled`
+  double checkpoint;  // s  likewise
 } ride;
 
 // Times that differ by less are one time: k DT and a breakpoint written in decimals may differ by
@@ -45,14 +46,12 @@ static double row_time(const ride *r) {
   return r->row < r->rows ? (double)r->row * r->def->sample : INFINITY;
 }
 
-// An adaptive method that needs 1e5 steps for 0.01 s, ten thousand times more than a bicycle's
-// motion asks for, is caught at a singularity: a second of work, then an error.
-enum { STALL_STEPS = 100000 };
-static const double STALL_TIME = 0.01; // s
-
-static bool stalled(ride *r) {
-  if (!r->method->adaptive || r->out->steps % STALL_STEPS) return false;
-  bool stall = r->end.t - r->checkpoint < STALL_TIME;
+// An adaptive method that needs RIDE_STALL_STEPS steps of its own choice, not cut by rows and
+// breakpoints, for RIDE_STALL_TIME, ten thousand times more than a bicycle's motion asks for, is
+// caught at a singularity: a fifth of a second of work, then an error.
+static bool stalled(ride *r, double limit) {
+  if (!r->method->adaptive || r->end.t >= limit || ++r->own_steps % RIDE_STALL_STEPS) return false;
+  bool stall = r->end.t - r->checkpoint < RIDE_STALL_TIME;
   r->checkpoint = r->end.t;
   return stall;
 }
@@ -95,7 +94,7 @@ static int take_step(ride *r, double limit, double stop) {
   if (failed == BIKE_ERROR_MEMORY) return BIKE_ERROR_MEMORY;
   if (!failed) {
     r->out->steps++;
-    return stalled(r) ? BIKE_ERROR_SOLVER : BIKE_OK;
+    return stalled(r, limit) ? BIKE_ERROR_SOLVER : BIKE_OK;
   }
   if (!r->flow.error) return BIKE_ERROR_SOLVER;
   r->end = r->begin;

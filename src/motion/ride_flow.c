@@ -12,9 +12,10 @@ static bike_state state_of(const double y[RIDE_SIZE]) {
                       .speed = y[RIDE_SPEED]};
 }
 
-static bool finite_input(const bike_input *in) {
-  return isfinite(in->steer_torque) && isfinite(in->roll_torque) && isfinite(in->rider_offset) &&
-         isfinite(in->rider_velocity) && isfinite(in->rider_acceleration);
+static bool within_range(const bike_input *in) {
+  return fabs(in->steer_torque) <= BIKE_LARGEST && fabs(in->roll_torque) <= BIKE_LARGEST &&
+         fabs(in->rider_offset) <= BIKE_LARGEST && fabs(in->rider_velocity) <= BIKE_LARGEST &&
+         fabs(in->rider_acceleration) <= BIKE_LARGEST;
 }
 
 // A fatal error stays: an integrator may try elsewhere and get through.
@@ -28,7 +29,7 @@ static int ask_input(bike_input *in, double t, ride_flow *flow) {
   *in = (bike_input){0};
   if (!flow->input) return 0;
   flow->input(fmin(fmax(t, flow->from), flow->to), in, flow->user);
-  return finite_input(in) ? 0 : failure(flow, BIKE_ERROR_NOT_FINITE, true);
+  return within_range(in) ? 0 : failure(flow, BIKE_ERROR_NOT_FINITE, true);
 }
 
 // With finite inputs every error but a missing rider is the trial state's: a shorter step may help.

@@ -19,6 +19,10 @@ typedef struct ride_table {
 extern const ride_table RIDE_TABLE_8; // Prince and Dormand's RK8(7)13M
 extern const ride_table RIDE_TABLE_4; // the classical Runge-Kutta method
 
+// Adaptive steps that get no further than this time, s, are given up.
+enum { RIDE_STALL_STEPS = 20000 };
+#define RIDE_STALL_TIME 0.02
+
 // One step from `from` to time `t`. `error` receives the difference to the embedded step and may be
 // NULL. Returns as ride_rates; `out` is undefined then.
 int ride_table_step(ride_point *out, double error[RIDE_SIZE], const ride_table *table,

@@ -24,6 +24,8 @@ int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]) {
     pairs[i][0] = re[i];
     pairs[i][1] = im[i];
   }
+  for (int i = 0; i < 4; i++)
+    if (!isfinite(re[i]) || !isfinite(im[i])) return BIKE_ERROR_NOT_FINITE;
   qsort(pairs, 4, sizeof pairs[0], falling);
   for (int i = 0; i < 4; i++) {
     out->re[i] = pairs[i][0];

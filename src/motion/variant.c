@@ -7,6 +7,8 @@
 
 #include "motion/variant_complex.h"
 
+static const double PI = 3.14159265358979323846;
+
 typedef struct words {
   const char *name, *unit;
   const char *held[2]; // front in space, front on the axis
@@ -68,7 +70,9 @@ int bike_variation_value(double *out, const bike_bicycle *bicycle, bike_variatio
 int bike_vary(bike_bicycle *out, const bike_bicycle *bicycle, bike_variation variation,
               double value, bike_front_hold hold) {
   if (!out || !bicycle || !known(variation)) return BIKE_ERROR_ARGUMENT;
-  if (!isfinite(value)) return BIKE_ERROR_NOT_FINITE;
+  if (!(fabs(value) <= BIKE_LARGEST)) return BIKE_ERROR_NOT_FINITE;
+  bool angle = variation == BIKE_VARY_HEAD_ANGLE; // the axis turned by half a turn is another one
+  if (angle && !(value > 0 && value < PI)) return BIKE_ERROR_PARAMETER;
   vary_bicycle b;
   int code = vary_read(&b, bicycle);
   if (!code) code = vary_apply(&b, variation, value, hold);

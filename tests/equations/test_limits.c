@@ -4,6 +4,9 @@
 #include "nine_equations.h"
 #include "support/near.h"
 #include <bicycle/error.h>
+#include <bicycle/linear.h>
+#include <bicycle/variant.h>
+#include <float.h>
 #include <string.h>
 
 #define DEGREE 0.017453292519943295
@@ -13,6 +16,21 @@ static bike_model shipped_model(const char *name) {
   bike_model model;
   assert_int_equal(bike_model_init(&model, &bicycle), 0);
   return model;
+}
+
+// The roadster's masses on other lengths, as on small wheels far apart, where the lengths of (4)
+// are many wheel radii.
+static bike_bicycle roadster_on(bike_geometry geometry) {
+  bike_bicycle b = read_shipped("roadster");
+  bike_upright upright;
+  b.geometry = geometry;
+  assert_int_equal(bike_upright_position(&upright, &b.geometry), 0);
+  for (int i = 0; i < b.part_count; i++) {
+    bike_part *p = &b.parts[i];
+    if (p->assembly == BIKE_REAR_WHEEL) memcpy(p->position, upright.rear_hub, sizeof p->position);
+    if (p->assembly == BIKE_FRONT_WHEEL) memcpy(p->position, upright.front_hub, sizeof p->position);
+  }
+  return b;
 }
 
 // Exactly straight riding has exactly zero accelerations, at any speed, standstill included.
@@ -121,6 +139,75 @@ static void numbers_that_overflow(void **unused) {
   assert_true(refused > 0);
 }
 
+// At once: an angle of 1e12 rad is nowhere followed turn by turn.
+static void many_turns(void **unused) {
+  (void)unused;
+  const bike_model model = shipped_model("roadster");
+  const double beyond[] = {BIKE_LARGEST_ANGLE * (1 + DBL_EPSILON), 1e12, 1e300};
+  for (int i = 0; i < 12; i++) {
+    bike_state s = {.lean = 0.1, .steer = 0.1, .speed = 5};
+    *(i % 2 ? &s.lean : &s.steer) = (i % 4 < 2 ? 1 : -1) * beyond[i / 4];
+    bike_acceleration a;
+    bike_snapshot is;
+    bike_linear linear;
+    assert_int_equal(bike_accelerate(&a, &model, &s, NULL), BIKE_ERROR_NOT_FINITE);
+    assert_int_equal(bike_evaluate(&is, &model, &s, NULL), BIKE_ERROR_NOT_FINITE);
+    assert_int_equal(bike_linearize(&linear, &model, &s, NULL), BIKE_ERROR_NOT_FINITE);
+  }
+  // a steer and the same after whole turns, too far for Newton's method from upright, are one
+  // posture, to the rounding of an angle, 1e-13 rad, times slopes below 1e3
+  for (int turns = -100; turns <= 99; turns++) {
+    bike_state s = {.lean = 0.2, .steer = 1.1, .speed = 5};
+    bike_acceleration plain, turned;
+    assert_int_equal(bike_accelerate(&plain, &model, &s, NULL), 0);
+    s.steer += turns * 360 * DEGREE;
+    assert_int_equal(bike_accelerate(&turned, &model, &s, NULL), 0);
+    assert_near(turned.lean, plain.lean, 1e-9);
+    assert_near(turned.steer, plain.steer, 1e-9);
+  }
+}
+
+// The slowest of some 200000 random postures without a root: the way there is given up after
+// REAR_ANGLE_MOST_STEPS.
+static void the_way_to_an_impossible_posture_ends(void **unused) {
+  (void)unused;
+  bike_bicycle b =
+      roadster_on((bike_geometry){0.18324554208812194, 0.32443286507124225, -0.39704218874183866,
+                                  0.17943490710618126, 0.44258588034306723});
+  bike_model model;
+  assert_int_equal(bike_model_init(&model, &b), 0);
+  const bike_state s = {.lean = 1.4804071149839615, .steer = 2.0220504493410298, .speed = 5};
+  bike_acceleration a;
+  assert_int_equal(bike_accelerate(&a, &model, &s, NULL), BIKE_ERROR_GEOMETRY);
+}
+
+// No bicycle is so large, and no property of one is set to what it cannot be.
+static void parts_too_large(void **unused) {
+  (void)unused;
+  const double large[] = {1.1e20, 1e154, 1e300, DBL_MAX};
+  bike_model model;
+  for (int i = 0; i < 4; i++) {
+    bike_bicycle b = read_shipped("roadster"), changed;
+    const char *what;
+    int part;
+    b.parts[1].position[2] = large[i];
+    assert_int_equal(bike_model_init(&model, &b), BIKE_ERROR_NOT_FINITE);
+    assert_int_equal(bike_check(&b, &part, &what), BIKE_ERROR_NOT_FINITE);
+    assert_int_equal(part, 1);
+    b = read_shipped("roadster");
+    b.parts[0].inertia[0] = large[i] * large[i];
+    assert_int_equal(bike_model_init(&model, &b), BIKE_ERROR_NOT_FINITE);
+    b = read_shipped("roadster");
+    for (int v = 0; v < BIKE_VARIATIONS; v++)
+      assert_int_equal(bike_vary(&changed, &b, v, large[i], BIKE_FRONT_ON_AXIS),
+                       BIKE_ERROR_NOT_FINITE);
+    const double angles[] = {-0.1, 0, 180 * DEGREE, 432 * DEGREE, 1e20};
+    for (int k = 0; k < 5; k++)
+      assert_int_equal(bike_vary(&changed, &b, BIKE_VARY_HEAD_ANGLE, angles[k], i % 2),
+                       BIKE_ERROR_PARAMETER);
+  }
+}
+
 static void rider_input_needs_a_rider(void **unused) {
   (void)unused;
   const bike_model model = shipped_model("roadster_riderless");
@@ -194,17 +281,8 @@ static void whole_range_of_lean_and_steer(void **unused) {
   }
 }
 
-// The roadster's masses on small wheels far apart, where the lengths of (4) are many wheel radii.
 static bike_bicycle on_small_wheels(double wheelbase, double radius) {
-  bike_bicycle b = read_shipped("roadster");
-  bike_upright upright;
-  b.geometry = bike_geometry_from_wheelbase(wheelbase, 0.05, 0.4, radius, radius);
-  assert_int_equal(bike_upright_position(&upright, &b.geometry), 0);
-  for (int i = 0; i < b.part_count; i++) {
-    bike_part *p = &b.parts[i];
-    if (p->assembly == BIKE_REAR_WHEEL) memcpy(p->position, upright.rear_hub, sizeof p->position);
-    if (p->assembly == BIKE_FRONT_WHEEL) memcpy(p->position, upright.front_hub, sizeof p->position);
-  }
+  bike_bicycle b = roadster_on(bike_geometry_from_wheelbase(wheelbase, 0.05, 0.4, radius, radius));
   snprintf(b.name, sizeof b.name, "wheels of %g m", radius);
   return b;
 }
@@ -252,6 +330,9 @@ int main(void) {
       cmocka_unit_test(speed_is_that_of_the_contact_point),
       cmocka_unit_test(numbers_that_are_none),
       cmocka_unit_test(numbers_that_overflow),
+      cmocka_unit_test(many_turns),
+      cmocka_unit_test(the_way_to_an_impossible_posture_ends),
+      cmocka_unit_test(parts_too_large),
       cmocka_unit_test(rider_input_needs_a_rider),
       cmocka_unit_test(whole_range_of_lean_and_steer),
       cmocka_unit_test(small_wheels),

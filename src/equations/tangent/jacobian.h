@@ -50,9 +50,10 @@ typedef struct jacobian {
   jacobian_checks checks;
 } jacobian;
 
-// BIKE_OK, or why the results at a point mean nothing: BIKE_ERROR_NOT_FINITE, BIKE_ERROR_SINGULAR,
-// or BIKE_ERROR_GEOMETRY where Newton's steps from the guess near upright do not reach a root of
-// (4): bike_linearize may yet follow it there. A rider's motion without a rider is not looked for.
+// BIKE_OK, or why the results at a point may mean nothing: BIKE_ERROR_NOT_FINITE,
+// BIKE_ERROR_SINGULAR, or BIKE_ERROR_GEOMETRY where Newton's steps from the guess near upright do
+// not reach a root of (4), or it is near such a limit: ask bike_linearize there. A rider's motion
+// without a rider is not looked for.
 typedef int jacobian_codes[JACOBIAN_POINTS];
 
 // All points are filled, so give every point a state.

@@ -15,6 +15,11 @@
 
 enum { BIKE_NAME_SIZE = 64, BIKE_MAX_PARTS = 32 };
 
+// No number that the equations are given is larger in magnitude, in SI units, but inertias, which
+// may be as large as its square: their products, of up to some ten numbers, then stay within a
+// double's range. BIKE_ERROR_NOT_FINITE for a larger one.
+#define BIKE_LARGEST 1e20
+
 // The rigid assembly to which a part belongs. A wheel turns about its hub relative to its frame.
 typedef enum bike_assembly {
   BIKE_REAR_FRAME,
@@ -29,8 +34,8 @@ typedef struct bike_geometry {
   double L_r; // m   rear hub behind the steering axis: its x0 is (0, -L_r, L_s)
   double L_f; // m   front hub before the steering axis: its x0 is (0, L_f, 0)
   double L_s; // m   rear hub above that perpendicular, along the axis; may be negative
-  double R_r; // m   rear wheel's radius, > 0
-  double R_f; // m   front wheel's radius, > 0
+  double R_r; // m   rear wheel's radius, > 0; at least 1e-9 of the five together, and 1e-20
+  double R_f; // m   front wheel's radius, likewise
 } bike_geometry;
 
 typedef struct bike_part {
@@ -71,10 +76,13 @@ BIKE_API bike_bicycle bike_default_bicycle(void);
 //   wheelbase, trail  m, between the contact points; trail > 0 behind the steering axis
 //   tilt              rad, of the steering axis from the vertical (head angle = pi/2 - tilt)
 //   R_r, R_f          m, wheel radii
+// Any numbers give some lengths; whether they are a bicycle's, bike_upright_position tells.
 BIKE_API bike_geometry bike_geometry_from_wheelbase(double wheelbase, double trail, double tilt,
                                                     double R_r, double R_f);
 
-// Upright position of a geometry. BIKE_ERROR_IMPOSSIBLE where no such position exists.
+// Upright position of a geometry. BIKE_ERROR_IMPOSSIBLE where no such position exists, or only one
+// made of rounding: a steering axis within 1e-9 rad of the horizontal, a wheelbase below 1e-9 of
+// the five lengths together. NOT_FINITE where a number of it would not be finite.
 BIKE_API int bike_upright_position(bike_upright *out, const bike_geometry *geometry);
 
 // Checks every rule stated above. On BIKE_ERROR_PARAMETER or BIKE_ERROR_NOT_FINITE `part` tells

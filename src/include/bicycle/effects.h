@@ -52,7 +52,8 @@ BIKE_API int bike_variation_slope(double *weave_slope, double *capsize_slope,
                                   bike_front_hold hold, double weave, double capsize);
 
 // d(lean)/d(rider offset) of steady riding near upright, rad/m, at a speed: infinite at the capsize
-// speed. BIKE_ERROR_NO_RIDER without a rider.
+// speed. BIKE_ERROR_NO_RIDER without a rider; NOT_FINITE for a speed beyond BIKE_LARGEST; errors of
+// bike_linearize_upright.
 BIKE_API int bike_lean_per_offset(double *out, const bike_model *model, double speed);
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Error codes of the library: every function that can fail returns 0 (BIKE_OK) or one of these.
+// Where it returns 0 all numbers of its result are finite, but for those whose comment says when
+// they are not.
 #ifndef BICYCLE_ERROR_H
 #define BICYCLE_ERROR_H
 

@@ -24,11 +24,13 @@ typedef struct bike_linear {
 } bike_linear;
 
 // Matrices of upright straight riding. BIKE_ERROR_NOT_STATIONARY for a bicycle that is not
-// mirror-symmetric.
+// mirror-symmetric; errors of bike_mass_matrix. Results are finite where the code is 0.
 BIKE_API int bike_linearize_upright(bike_upright_matrices *out, const bike_model *model);
 
 // A and B at a state, which need not be stationary (the derivative is of the accelerations with
-// the speed slaved to the energy, as in the paper's section 4; steer damping included).
+// the speed slaved to the energy, as in the paper's section 4; steer damping included). Errors:
+// those of bike_evaluate; SINGULAR where no speed keeps the energy (standing, but for upright);
+// NOT_FINITE where an entry would not be finite. Results are finite where the code is 0.
 BIKE_API int bike_linearize(bike_linear *out, const bike_model *model, const bike_state *state,
                             const bike_input *input);
 

@@ -36,7 +36,8 @@ typedef struct bike_model {
   double total_mass;      // kg
 } bike_model;
 
-// Checks the bicycle and lumps its parts. Errors: those of bike_check and bike_upright_position.
+// Checks the bicycle and lumps its parts. Errors: those of bike_check. All numbers of a model are
+// finite.
 BIKE_API int bike_model_init(bike_model *out, const bike_bicycle *bicycle);
 
 #endif

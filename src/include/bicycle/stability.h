@@ -25,7 +25,8 @@ typedef struct bike_critical_speeds {
   double ranges[BIKE_MAX_CRITICAL][2];
 } bike_critical_speeds;
 
-// Eigenvalues of A (row-major, 4 x 4).
+// Eigenvalues of A (row-major, 4 x 4). Errors: ARGUMENT, NOT_FINITE (a number of A, or an
+// eigenvalue), NO_CONVERGENCE.
 BIKE_API int bike_eigenvalues_of(bike_eigenvalues *out, const double A[16]);
 
 // Real parts below this, in either direction, are rounding, 1/s: some 1e4 roundings of the largest

@@ -9,6 +9,10 @@
 
 #include <bicycle/model.h>
 
+// rad  100 turns: a lean or a steer beyond is a mistake. NOT_FINITE for it, as for what is beyond
+// BIKE_LARGEST.
+#define BIKE_LARGEST_ANGLE 628.31853071795865
+
 // The two plus three variables of the paper: kappa, phi, kappa', phi', v.
 typedef struct bike_state {
   double lean;       // rad    kappa
@@ -58,8 +62,11 @@ typedef struct bike_snapshot {
   double front_force[3]; // N      of the ground on the front wheel
 } bike_snapshot;
 
-// Accelerations alone. Errors: NO_RIDER (a rider input without a rider), NOT_FINITE, GEOMETRY,
-// SINGULAR; the output is untouched then.
+// Accelerations alone. Errors, in this order: NOT_FINITE (a number of the state or the input is not
+// finite, beyond BIKE_LARGEST, or an angle beyond BIKE_LARGEST_ANGLE), NO_RIDER (a rider input
+// without a rider), GEOMETRY, SINGULAR; the output is untouched then. Where the code is 0 every
+// number of the result is finite. bike_accelerate, bike_rates_of and bike_evaluate return the same
+// code for the same state.
 BIKE_API int bike_accelerate(bike_acceleration *out, const bike_model *model,
                              const bike_state *state, const bike_input *input);
 
@@ -69,7 +76,7 @@ BIKE_API int bike_evaluate(bike_snapshot *out, const bike_model *model, const bi
 
 // Mass matrix of Kane's equations for the speeds (lean_rate, steer_rate, speed): row-major, SI.
 // With rates r = (lean_rate, steer_rate, speed) the kinetic energy is r.M r / 2 for a rider at
-// rest.
+// rest. Same errors.
 BIKE_API int bike_mass_matrix(double out[9], const bike_model *model, const bike_state *state,
                               double rider_offset);
 
@@ -82,7 +89,7 @@ typedef struct bike_rates {
   double power;                   // W      as in bike_snapshot
 } bike_rates;
 
-// Right-hand side of a ride: accelerations and the rates of what is only integrated.
+// Right-hand side of a ride: accelerations and the rates of what is only integrated. Same errors.
 BIKE_API int bike_rates_of(bike_rates *out, const bike_model *model, const bike_state *state,
                            const bike_input *input);
 

@@ -40,7 +40,7 @@ BIKE_API int bike_variation_value(double *out, const bike_bicycle *bicycle,
                                   bike_variation variation);
 
 // The bicycle with the property at `value`. Same errors, and those of bike_check for what comes
-// out; `out` is then untouched.
+// out; PARAMETER also for a head angle that is not between 0 and pi; `out` is then untouched.
 BIKE_API int bike_vary(bike_bicycle *out, const bike_bicycle *bicycle, bike_variation variation,
                        double value, bike_front_hold hold);
 
