@@ -213,6 +213,12 @@ runner_status runner_start_at_keyframe(runner *r, mjcf_error *error) {
               residual);
     return RUNNER_START;
   }
+  const runner_hinge *steer = &r->map.steer;
+  runner_posture posture;
+  runner_read_posture(&posture, r, r->ride);
+  if (!runner_check_angles(posture.angle[1],
+                           steer->sign * (r->ride->qpos[steer->qpos] - steer->zero), error))
+    return RUNNER_ARGUMENT;
   // A keyframe says no more than qpos and qvel; but at rest is at rest, not a rounding's speed.
   begin(r, &(bike_state){NAN, NAN, NAN, NAN, 0});
   return RUNNER_OK;

@@ -126,6 +126,9 @@ void runner_write_rates(const runner *r, mjData *d, const double velocity[3], co
 // Places d (time 0) at a state, consistent with both discs on the ground and rolling.
 runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_error *error);
 
+// Whether a start's angles, rad, are within BIKE_LARGEST_ANGLE.
+bool runner_check_angles(double lean, double steer, mjcf_error *error);
+
 // The same for a model made by others (runner_foreign.c); false where no start is found.
 bool runner_place_foreign(const runner *r, mjData *d, const bike_state *state);
 

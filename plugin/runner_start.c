@@ -138,6 +138,12 @@ static bool is_finite_state(const bike_state *s) {
          isfinite(s->steer_rate) && isfinite(s->speed);
 }
 
+bool runner_check_angles(double lean, double steer, mjcf_error *error) {
+  double larger = fmax(fabs(lean), fabs(steer));
+  return larger <= BIKE_LARGEST_ANGLE ||
+         mjcf_fail(error, "the start has an angle of %g rad: beyond 100 turns", larger);
+}
+
 runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_error *error) {
   if (!is_finite_state(state)) {
     mjcf_fail(error, "a number of the start state is not finite");
@@ -147,6 +153,7 @@ runner_status runner_place(runner *r, mjData *d, const bike_state *state, mjcf_e
     mjcf_fail(error, "the lean of the start state must be below 85 deg");
     return RUNNER_ARGUMENT;
   }
+  if (!runner_check_angles(state->lean, state->steer, error)) return RUNNER_ARGUMENT;
   start s = {.r = r, .d = d, .state = state};
   guard_report report;
   guard_call(&report, find_start, &s);

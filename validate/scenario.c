@@ -96,8 +96,8 @@ static int displace_rider(const bike_yaml *yaml, scenario *s) {
 
 static int read_start(const bike_yaml *yaml, const bike_field *field, void *target) {
   static const bike_key keys[] = {
-      {"lean", bike_yaml_number, offsetof(bike_state, lean), false},
-      {"steer", bike_yaml_number, offsetof(bike_state, steer), false},
+      {"lean", bike_yaml_angle, offsetof(bike_state, lean), false},
+      {"steer", bike_yaml_angle, offsetof(bike_state, steer), false},
       {"lean_rate", bike_yaml_number, offsetof(bike_state, lean_rate), false},
       {"steer_rate", bike_yaml_number, offsetof(bike_state, steer_rate), false},
       {"speed", bike_yaml_number, offsetof(bike_state, speed), true},
@@ -145,12 +145,17 @@ static int read_seed(const bike_yaml *yaml, const bike_field *field, void *targe
   return code;
 }
 
+static int read_largest_angle(const bike_yaml *yaml, const bike_field *field, void *target) {
+  int code = bike_yaml_not_negative(yaml, field, target);
+  return code ? code : bike_yaml_angle(yaml, field, target);
+}
+
 static int read_instants(const bike_yaml *yaml, const bike_field *field, void *target) {
   static const bike_key keys[] = {
       {"count", read_count, offsetof(scenario_instants, count), false},
       {"seed", read_seed, offsetof(scenario_instants, seed), false},
-      {"lean", bike_yaml_not_negative, offsetof(scenario_instants, lean), false},
-      {"steer", bike_yaml_not_negative, offsetof(scenario_instants, steer), false},
+      {"lean", read_largest_angle, offsetof(scenario_instants, lean), false},
+      {"steer", read_largest_angle, offsetof(scenario_instants, steer), false},
       {"rate", bike_yaml_not_negative, offsetof(scenario_instants, rate), false},
       {"slow", bike_yaml_number, offsetof(scenario_instants, slow), false},
       {"fast", bike_yaml_number, offsetof(scenario_instants, fast), false},

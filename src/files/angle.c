@@ -3,6 +3,7 @@
 
 #include "number.h"
 
+#include <bicycle/state.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,6 +13,8 @@ static const double DEGREE = M_PI / 180;
 const bike_angle_range bike_head_angle_range = {0, M_PI, "between 0 and pi (pi/2: upright)"};
 const bike_angle_range bike_tilt_range = {-M_PI / 2, M_PI / 2, "between -pi/2 and pi/2"};
 const bike_angle_range bike_steer_range = {-M_PI, M_PI, "between -pi and pi"};
+const bike_angle_range bike_turns_range = {-BIKE_LARGEST_ANGLE, BIKE_LARGEST_ANGLE,
+                                           "within 100 turns"};
 
 static bool is_within(const bike_angle_range *range, double angle) {
   return angle > range->low && angle < range->high;

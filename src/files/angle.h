@@ -15,6 +15,7 @@ typedef struct bike_angle_range {
 extern const bike_angle_range bike_head_angle_range; // from the horizontal
 extern const bike_angle_range bike_tilt_range;       // from the vertical: steering axis, lean
 extern const bike_angle_range bike_steer_range;
+extern const bike_angle_range bike_turns_range; // any lean or steer: BIKE_LARGEST_ANGLE
 
 enum { BIKE_ANGLE_TEXT = 128 };
 

@@ -91,6 +91,7 @@ bool bike_yaml_is_text(const bike_field *field, const char *word);  // with or w
 bike_value_reader bike_yaml_number;       // double: finite
 bike_value_reader bike_yaml_positive;     // double: > 0
 bike_value_reader bike_yaml_not_negative; // double: >= 0
+bike_value_reader bike_yaml_angle;        // double: within 100 turns
 bike_value_reader bike_yaml_point;        // double[3]
 bike_value_reader bike_yaml_flag;         // bool: true or false
 bike_value_reader bike_yaml_ignored_text; // nothing: any text, null or a truth value

@@ -91,6 +91,13 @@ int bike_yaml_not_negative(const bike_yaml *yaml, const bike_field *field, void 
   return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "must not be negative");
 }
 
+int bike_yaml_angle(const bike_yaml *yaml, const bike_field *field, void *target) {
+  char what[BIKE_ANGLE_TEXT];
+  const int code = bike_yaml_number(yaml, field, target);
+  if (code || bike_angle_check(what, &bike_turns_range, *(double *)target)) return code;
+  return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%s", what);
+}
+
 int bike_yaml_numbers(const bike_yaml *yaml, const bike_field *field, double *out, int count) {
   if (!field->value || !fy_node_is_sequence(field->value) ||
       fy_node_sequence_item_count(field->value) != count)

@@ -219,14 +219,16 @@ static const bike_angle_range *angles_of(const sweep_axis *axis) {
   }
 }
 
-// Degrees would be angles that no bicycle has. Draws of a normal law may have such by chance.
+// Degrees would be angles that no bicycle has. Draws of a normal law may have such by
+// chance; its mean and deviation are within 100 turns.
 static int check_angles(const sweep_axis *axis, const bike_yaml *yaml, const bike_field *field) {
   const bike_angle_range *range = angles_of(axis);
+  if (range && axis->law == SWEEP_NORMAL) range = &bike_turns_range;
   const bool listed = axis->law == SWEEP_LIST;
   const double ends[2] = {axis->a, axis->b}, *value = listed ? axis->list : ends;
   const long count = listed ? axis->count : 2;
   char what[BIKE_ANGLE_TEXT];
-  if (!range || axis->law == SWEEP_NORMAL) return BIKE_OK;
+  if (!range) return BIKE_OK;
   for (long i = 0; i < count; i++)
     if (!bike_angle_check(what, range, value[i]))
       return bike_yaml_fail(yaml, field, BIKE_ERROR_PARAMETER, "%g %s", value[i], what);

@@ -4,6 +4,8 @@
 #include "terminal/number.h"
 
 #include <errno.h>
+#include <bicycle/state.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,6 +87,14 @@ double term_angle_of(const char *option, const char *text) {
   double value;
   if (!term_parse_angle(&value, text))
     term_usage("%s: '%s' is not an angle: radians, or degrees as in 5deg", option, text);
+  if (fabs(value) > BIKE_LARGEST_ANGLE) term_usage("%s: %s is beyond 100 turns", option, text);
+  return value;
+}
+
+double term_rate_of(const char *option, const char *text) {
+  double value;
+  if (!term_parse_angle(&value, text))
+    term_usage("%s: '%s' is not a rate: rad/s, or degrees per second as in 5deg", option, text);
   return value;
 }
 

@@ -34,7 +34,8 @@ void term_usage(const char *format, ...) __attribute__((format(printf, 1, 2), no
 // program through term_usage.
 double term_number_of(const char *option, const char *text);
 double term_positive_of(const char *option, const char *text);
-double term_angle_of(const char *option, const char *text);
+double term_angle_of(const char *option, const char *text); // within 100 turns
+double term_rate_of(const char *option, const char *text);  // of an angle
 
 // The value of --search: "LO:HI", m/s, with 0 <= LO < HI.
 void term_search_of(double out[2], const char *text);

@@ -38,10 +38,10 @@ static error_t parse_start(int key, char *text, struct argp_state *argp_state) {
     start->state.steer = steer_of(text);
     return 0;
   case KEY_LEAN_RATE:
-    start->state.lean_rate = term_angle_of("--lean-rate", text);
+    start->state.lean_rate = term_rate_of("--lean-rate", text);
     return 0;
   case KEY_STEER_RATE:
-    start->state.steer_rate = term_angle_of("--steer-rate", text);
+    start->state.steer_rate = term_rate_of("--steer-rate", text);
     return 0;
   case KEY_SPEED:
     start->state.speed = term_number_of("--speed", text);

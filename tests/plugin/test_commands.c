@@ -67,6 +67,7 @@ static const run_wrong commands[] = {
     {MODEL_RIDE("no_key.xml"), "no_key.xml: the model has no keyframe 'test'"},
     {MODEL_RIDE("nan_key.xml"), "nan_key.xml: keyframe 'test'"},
     {MODEL_RIDE("off_key.xml"), "off_key.xml: keyframe 'test'"},
+    {MODEL_RIDE("turned_key.xml"), "turned_key.xml: the start has an angle of 2513.27 rad: beyond"},
     {MODEL_RIDE("integrator.xml"), "integrator.xml: XML Error: invalid keyword: 'RK5'"},
     {MODEL_RIDE("timestep.xml"), "timestep.xml: the model's timestep must be positive"},
     {MODEL_RIDE("inertia.xml"), "inertia.xml: XML Error: problem reading attribute 'data'"},
@@ -140,6 +141,7 @@ static int enter(void **state) {
       "edit '/<keyframe>/,/<.keyframe>/d' no_key.xml; "
       "edit 's/qpos=\"0/qpos=\"nan/' nan_key.xml; edit 's/qpos=\"0 0 0/qpos=\"0 0 0.1/' "
       "off_key.xml; "
+      "edit 's/qpos=\"0 0 0 0 0 0 0 0/qpos=\"0 0 0 0 0 0 0 2513.2741228718346/' turned_key.xml; "
       "edit 's/integrator=\"RK4\"/integrator=\"RK5\"/' integrator.xml; "
       "edit 's/timestep=\"[^\"]*\"/timestep=\"0\"/' timestep.xml; "
       "edit 's/<custom>/<custom><numeric name=\"inertia:rear_frame\" data=\"x\"\\/>/' inertia.xml; "

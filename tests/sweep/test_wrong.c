@@ -66,6 +66,9 @@ static const edit edits[] = {
      "5:3: steer: 45 must be in radians, between -pi and pi; 45 deg are 0.785398"},
     {"speed: [4, 5]", "property.head_angle: 68",
      "5:3: property.head_angle: 68 must be in radians, between 0 and pi"},
+    {"speed: [4, 5]", "steer: {normal: [1e12, 1]}",
+     "5:3: steer: 1e+12 must be in radians, within 100 turns"},
+    {"speed: [4, 5]", "lean: {normal: [0, 1e12]}", "5:3: lean: 1e+12 must be in radians"},
     {"speed: [4, 5]", "lean: 5deg",
      "5:3: lean: '5deg' is not a number: angles are in radians, 5 deg are 0.0872665"},
     // Axes.
