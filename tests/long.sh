@@ -14,6 +14,7 @@ analyse|static analysis: gcc's analyser over plugin|sh tests/analyse.sh --no-ins
 fuzz|each fuzz target for two minutes|sh tests/fuzz.sh --no-install 120
 faults|faults of the past, put back, are found by fuzzing|sh tests/fuzz/faults.sh
 memory|allocations that fail, one at a time, in every command|build/release/tests/faults_memory
+kills|kill -9 at random moments of ride, figures, mjcf, validate and sweep|build/release/tests/faults_kills 1000
 END
 }
 
