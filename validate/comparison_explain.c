@@ -106,7 +106,7 @@ static void say_groups(comparison *c) {
       {"velocities of rolling",
        {"yaw_rate", "pitch_rate", "rear_wheel_rate", "front_wheel_rate", "pitch"}},
       {"energies", {"kinetic", "potential"}},
-      {"mass matrix", {"mass_matrix"}},
+      {"mass matrices", {"mass_matrix"}},
       {"accelerations",
        {"lean_acceleration", "steer_acceleration", "yaw_acceleration", "pitch_acceleration",
         "rear_wheel_acceleration", "front_wheel_acceleration", "speed_rate"}},

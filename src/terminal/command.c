@@ -3,8 +3,8 @@
 
 #include "terminal/number.h"
 
-#include <errno.h>
 #include <bicycle/state.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
