@@ -77,7 +77,7 @@ keep_corpus() {
   kept=$work/kept/$name
   rm -rf "$kept"
   mkdir -p "$kept"
-  fuzzer -merge=1 "$kept" "$here/corpus/$name" "$work/corpus/$name" >"$work/found/$name.merge" 2>&1 ||
+  fuzzer -merge=1 -use_counters=0 "$kept" "$here/corpus/$name" "$work/corpus/$name" >"$work/found/$name.merge" 2>&1 ||
     die "the corpus of $name cannot be merged; see $work/found/$name.merge"
   rm -f "$here/corpus/$name"/*
   cp "$kept"/* "$here/corpus/$name/"

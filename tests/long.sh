@@ -12,7 +12,7 @@ mode_names|names of modes: 200 lists of speeds, 200 random bicycles|build/releas
 threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan
 analyse|static analysis: gcc's analyser over plugin|sh tests/analyse.sh --no-install gcc plugin/
 fuzz|each fuzz target for two minutes|sh tests/fuzz.sh --no-install 120
-faults|faults of the past, put back, are found by fuzzing|sh tests/fuzz/faults.sh
+faults|faults of the past, put back, are found by fuzzing|sh tests/fuzz/faults.sh --no-install
 memory|allocations that fail, one at a time, in every command|build/release/tests/faults_memory
 kills|kill -9 at random moments of ride, figures, mjcf, validate and sweep|build/release/tests/faults_kills 1000
 END

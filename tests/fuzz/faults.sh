@@ -14,6 +14,7 @@ faults are found; 1 one is not, or its patch does not fit any more; 2 the set-up
 END
 }
 
+test_packages=yes # read by setup.sh
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 # shellcheck source=cmake/setup.sh
 . "$root/cmake/setup.sh"

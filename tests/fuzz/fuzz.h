@@ -22,6 +22,9 @@ const char *fuzz_copy(const char *name, const char *source);
 // Whether a message says something, in one line without control characters.
 bool fuzz_one_line(const char *text);
 
+// Removes the folder and aborts.
+void fuzz_abort(void) __attribute__((noreturn));
+
 // What must hold. The sanitizers' report shows where it did not.
 #define FUZZ_REQUIRE(condition, ...)                                                               \
   do {                                                                                             \
@@ -29,7 +32,7 @@ bool fuzz_one_line(const char *text);
       fprintf(stderr, "%s:%d: not so: %s: ", __FILE__, __LINE__, #condition);                      \
       fprintf(stderr, __VA_ARGS__);                                                                \
       fputc('\n', stderr);                                                                         \
-      abort();                                                                                     \
+      fuzz_abort();                                                                                \
     }                                                                                              \
   } while (0)
 

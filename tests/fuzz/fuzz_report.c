@@ -11,7 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { STRAYS = 1, ANOTHER = 2, PAGE = 4 }; // switches of the first byte
+// Switches of the first byte. Only one input in eight makes a page: its digests of the scripts take
+// more time than all the rest.
+enum { STRAYS = 1, ANOTHER = 2, PAGE = 4 + 8 + 16 };
 
 static json_t *load_schema(void) {
   json_error_t error;
@@ -137,7 +139,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   json_t *before = read_back(a, "a.json"), *now = read_back(b, "b.json");
   if (before && now) compare(now, before, json_equal(a, b));
-  if (now) show(now, switches & PAGE);
+  if (now) show(now, (switches & PAGE) == PAGE);
   json_decref(a);
   json_decref(b);
   json_decref(before);
