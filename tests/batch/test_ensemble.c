@@ -212,6 +212,22 @@ static void handed_over_in_mid_ride(void **unused) {
   assert_true(late > 0);
 }
 
+// A damper so stiff that steps get nowhere: lanes give it up, and the plain path says so.
+static void rides_that_get_nowhere_end(void **unused) {
+  (void)unused;
+  bike_member_result results[2];
+  begin();
+  all.models[0].steer_damping = 1e7;
+  for (int i = 0; i < 2; i++)
+    add(&all.models[i], (bike_state){.lean_rate = 0.2, .speed = 5.8}, (bike_input){0});
+  bike_ensemble_def def = definition(60);
+  ride_members(results, all.members, 2, &def);
+  assert_int_equal(results[0].outcome, BIKE_OUTCOME_ERROR);
+  assert_int_equal(results[0].error, BIKE_ERROR_SOLVER);
+  assert_true(results[0].steps < 100000 && results[0].time < 1);
+  assert_int_equal(results[1].error, 0); // the neighbour
+}
+
 typedef struct lowest {
   double force; // N  on either wheel
   double since; // s  the last time both were on the ground
@@ -309,6 +325,7 @@ int main(void) {
       cmocka_unit_test(extreme_starts),
       cmocka_unit_test(lifts),
       cmocka_unit_test(handed_over_in_mid_ride),
+      cmocka_unit_test(rides_that_get_nowhere_end),
       cmocka_unit_test(each_wheel_is_watched),
   };
   return cmocka_run_group_tests(tests, print_instructions, NULL);

@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-static long cases = 2000;
+static long cases = 1000;
 
 // What is costly is asked of one bicycle in so many.
 enum { OFTEN = 5, SELDOM = 50, RARELY = 1000 };

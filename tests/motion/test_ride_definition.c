@@ -230,6 +230,31 @@ static void unreachable_accuracy_is_an_error(void **state) {
   assert_true(!r.complete && r.event_count == 0 && r.end_time == 0 && rows.count == 1);
 }
 
+// A damper so stiff that explicit steps get nowhere: given up, not ridden for hours.
+static void rides_that_get_nowhere_end(void **state) {
+  (void)state;
+  bike_model bike = roadster();
+  bike.steer_damping = 1e7;
+  bike_ride_def def = good();
+  def.start.lean_rate = 0.2;
+  def.duration = 60;
+  bike_ride_result r;
+  assert_int_equal(ride_into(&r, &bike, &def), BIKE_ERROR_SOLVER);
+  assert_true(r.steps < 100000 && r.end_time < 1);
+}
+
+// Steps that only rows cut short are none of the integrator's choice.
+static void many_rows_are_no_stall(void **state) {
+  (void)state;
+  bike_model bike = roadster();
+  bike_ride_def def = good();
+  def.duration = 1e-3;
+  def.sample = 1e-8;
+  bike_ride_result r;
+  assert_int_equal(ride_into(&r, &bike, &def), 0);
+  assert_true(r.complete);
+}
+
 static void bad(double time, bike_input *out, void *user) {
   (void)user;
   out->roll_torque = time > 0.2 ? NAN : 0;
@@ -292,6 +317,8 @@ int main(void) {
       cmocka_unit_test(impossible_start_is_its_own_error),
       cmocka_unit_test(default_is_good),
       cmocka_unit_test(unreachable_accuracy_is_an_error),
+      cmocka_unit_test(rides_that_get_nowhere_end),
+      cmocka_unit_test(many_rows_are_no_stall),
       cmocka_unit_test(library_is_silent),
   };
   return cmocka_run_group_tests(tests, NULL, forget);
