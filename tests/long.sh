@@ -9,6 +9,7 @@ set -eu
 checks() {
   cat <<'END'
 mode_names|names of modes: 200 lists of speeds, 200 random bicycles|build/release/tests/test_modes 200 200
+finite|finite or an error: a million bicycles of any magnitude|build/release/tests/test_finite 1000000
 threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan
 analyse|static analysis: gcc's analyser over plugin|sh tests/analyse.sh --no-install gcc plugin/
 fuzz|each fuzz target for two minutes|sh tests/fuzz.sh --no-install 120
