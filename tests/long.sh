@@ -14,7 +14,7 @@ threads|thread sanitizer: ensembles, rolling contacts, suites of scenarios|cmake
 analyse|static analysis: gcc's analyser over plugin|sh tests/analyse.sh --no-install gcc plugin/
 fuzz|each fuzz target for two minutes|sh tests/fuzz.sh --no-install 120
 faults|faults of the past, put back, are found by fuzzing|sh tests/fuzz/faults.sh --no-install
-memory|allocations that fail, one at a time, in every command|build/release/tests/faults_memory
+memory|allocations that fail, one at a time, 300 call stacks of every command|build/release/tests/faults_memory -v 1 -m 300
 kills|kill -9 at random moments of ride, figures, mjcf, validate and sweep|build/release/tests/faults_kills 1000
 END
 }
