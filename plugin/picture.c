@@ -101,11 +101,16 @@ static void free_scene(void *argument) {
   mjv_freeScene(&p->scene);
 }
 
+static void free_gl(void *argument) {
+  picture *p = (picture *)argument;
+  picture_gl_free(p->gl);
+}
+
 void picture_free(picture *p) {
   if (!p) return;
   guard_report report;
   if (p->gl) guard_call(&report, free_scene, p);
-  picture_gl_free(p->gl);
+  if (p->gl) guard_call(&report, free_gl, p); // a driver short of memory holds its locks for ever
   if (p->data) mj_deleteData(p->data);
   mj_deleteModel(p->model);
   free(p->rgb);

@@ -98,6 +98,7 @@ static bool is_messenger(const char *frame) {
 }
 
 static bool is_our_frame(const char *frame) {
+  if (is_messenger(frame)) return false;
   if (strncmp(frame, BICYCLE_BINARY_DIR, strlen(BICYCLE_BINARY_DIR)) == 0) return true;
   return is_of(frame, "bicycle") || is_of(frame, "faults_library");
 }
